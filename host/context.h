@@ -1,0 +1,32 @@
+// What the Contexts of the three executions share: the bases of their memory and programs.
+#pragma once
+#include <cstddef>
+
+#include <luxel/device.h>
+
+namespace luxel {
+
+class Memory {
+ public:
+  Memory(const Context* owner, Resource resource, std::size_t bytes)
+      : owner(owner), resource(std::move(resource)), bytes(bytes) {}
+  virtual ~Memory() = default;
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  const Context* const owner;  // only it may use this memory
+  const Resource resource;     // what it was made for
+  const std::size_t bytes;
+};
+
+class Program {
+ public:
+  explicit Program(const Context* owner) : owner(owner) {}
+  virtual ~Program() = default;
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  const Context* const owner;
+};
+
+}  // namespace luxel
