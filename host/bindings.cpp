@@ -1,0 +1,127 @@
+#include "bindings.h"
+
+#include <algorithm>
+
+namespace luxel {
+namespace {
+
+std::string expected_names(const Plan& plan) {
+  std::string text;
+  for (const Resource& resource : plan.resources) text += (text.empty() ? "" : ", ") + resource.name;
+  if (plan.scratch_bytes > 0) text += text.empty() ? "scratch" : ", scratch";
+  return text;
+}
+
+bool kind_fits(ResourceKind resource, BindingKind binding) {
+  switch (resource) {
+    case ResourceKind::buffer: return !is_image(binding) && binding != BindingKind::uniform;
+    case ResourceKind::image: return binding == BindingKind::image2d || binding == BindingKind::image3d;
+    case ResourceKind::sampled_image: return is_sampled(binding);
+    case ResourceKind::storage_image: return binding == BindingKind::image_write2d;
+  }
+  return false;
+}
+
+bool slot_fits(const Plan& plan, const Slot& slot, const BindingInfo& binding) {
+  const auto within = [&](std::size_t count) { return slot.index >= 0 && static_cast<std::size_t>(slot.index) < count; };
+  switch (slot.source) {
+    case Slot::Source::resource:
+      if (!within(plan.resources.size())) return false;
+      return kind_fits(plan.resources[static_cast<std::size_t>(slot.index)].kind, binding.kind);
+    case Slot::Source::scratch:
+      return within(plan.scratch.size()) && !is_image(binding.kind) && binding.kind != BindingKind::uniform;
+    case Slot::Source::table: return within(plan.tables.size()) && binding.kind == BindingKind::uniform;
+  }
+  return false;
+}
+
+}  // namespace
+
+Status check(const Plan& plan) {
+  const auto defect = [&](const std::string& what) { return Status(Code::internal, plan.kernel + ": " + what); };
+  for (const auto& table : plan.tables) {
+    if (table.size() * sizeof(float) > table_bytes)
+      return defect("a table of " + std::to_string(table.size()) + " floats; at most " +
+                    std::to_string(table_bytes / sizeof(float)) + " fit");
+  }
+  if (plan.tables.size() * table_bytes > plan.scratch_bytes) return defect("tables end behind scratch_bytes");
+  for (const ScratchRegion& region : plan.scratch) {
+    if (region.count == 0 || region.offset < plan.tables.size() * table_bytes ||
+        region.offset + region.count * bytes_per_pixel(region.format) > plan.scratch_bytes)
+      return defect("a scratch region is empty or leaves the scratch buffer");
+  }
+  for (const Pass& pass : plan.passes) {
+    const auto pass_defect = [&](const std::string& what) { return defect("pass " + pass.label + " " + what); };
+    if (!pass.module) return pass_defect("has no module");
+    const Module& module = *pass.module;
+    if (pass.slots.size() != module.bindings.size() || pass.parameters.size() != module.parameters.size() ||
+        pass.constants.size() != module.constants.size())
+      return pass_defect("does not have the bindings, parameters and constants of its module");
+    for (std::size_t i = 0; i < pass.slots.size(); ++i) {
+      if (!slot_fits(plan, pass.slots[i], module.bindings[i]))
+        return pass_defect("binds the wrong thing to " + std::string(module.bindings[i].name));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      if (pass.workgroup[static_cast<std::size_t>(axis)] == 0 || pass.groups[static_cast<std::size_t>(axis)] == 0)
+        return pass_defect("has an empty workgroup or no workgroups");
+    }
+  }
+  return {};
+}
+
+Result<std::vector<int>> match(const Plan& plan, std::span<const std::string_view> names) {
+  std::vector<int> found(plan.resources.size() + 1, -1);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::size_t place = 0;
+    while (place < plan.resources.size() && plan.resources[place].name != names[i]) ++place;
+    if (place == plan.resources.size() && names[i] != "scratch")
+      return bad_binding(plan, names[i], "is unknown; expected " + expected_names(plan));
+    if (found[place] >= 0) return bad_binding(plan, names[i], "is given twice");
+    found[place] = static_cast<int>(i);
+  }
+  for (std::size_t place = 0; place < plan.resources.size(); ++place) {
+    if (found[place] < 0) return bad_binding(plan, plan.resources[place].name, "is missing; expected " + expected_names(plan));
+  }
+  if (found.back() < 0 && plan.scratch_bytes > 0)
+    return bad_binding(plan, "scratch", "is missing; expected at least " + std::to_string(plan.scratch_bytes) + " bytes");
+  return found;
+}
+
+std::vector<Use> uses(const Plan& plan) {
+  std::vector<Use> result(plan.resources.size());
+  for (std::size_t p = 0; p < plan.passes.size(); ++p) {
+    const Pass& pass = plan.passes[p];
+    for (std::size_t i = 0; i < pass.slots.size(); ++i) {
+      if (pass.slots[i].source != Slot::Source::resource) continue;
+      Use& use = result[static_cast<std::size_t>(pass.slots[i].index)];
+      const BindingKind kind = pass.module->bindings[i].kind;
+      if (is_written(kind) && use.first_write < 0) use.first_write = static_cast<int>(p);
+      if (is_read(kind)) use.read = true;
+      use.last_use = static_cast<int>(p);
+    }
+  }
+  return result;
+}
+
+std::vector<std::pair<int, int>> exclusive(const Plan& plan) {
+  const std::vector<Use> use = uses(plan);
+  const int count = static_cast<int>(use.size());
+  std::vector<std::pair<int, int>> pairs;
+  const auto spoils = [&](int writer, int other) {
+    const int write = use[static_cast<std::size_t>(writer)].first_write;
+    return write >= 0 && use[static_cast<std::size_t>(other)].last_use >= write;
+  };
+  for (int a = 0; a < count; ++a) {
+    for (int b = a + 1; b < count; ++b) {
+      if (spoils(a, b) || spoils(b, a)) pairs.emplace_back(a, b);
+    }
+    pairs.emplace_back(a, count);
+  }
+  return pairs;
+}
+
+Status bad_binding(const Plan& plan, std::string_view name, const std::string& what) {
+  return Status(Code::invalid_argument, plan.kernel + ": binding " + std::string(name) + " " + what);
+}
+
+}  // namespace luxel
