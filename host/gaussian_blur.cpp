@@ -1,0 +1,202 @@
+#include <luxel/gaussian_blur.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+
+#include "host/check.h"
+#include "host/planner.h"
+
+namespace luxel {
+
+namespace {
+
+constexpr int max_radius = 4095;        // the table of weights has 4096 entries
+constexpr int max_direct_radius = 96;   // (2R+1)^2 taps a pixel: beyond, software drivers take minutes
+
+double half_step(Format format) {
+  switch (format) {
+    case Format::unorm8x4: return 1.0 / 510.0;
+    case Format::f16x2: case Format::f16x4: return std::ldexp(1.0, -12);  // for values in [0.5, 1)
+    default: return 0.0;
+  }
+}
+
+// Weights before normalisation; the centre is 1.
+std::vector<double> raw_weights(double sigma, int radius) {
+  std::vector<double> w(radius + 1, 0.0);
+  w[0] = 1.0;
+  if (sigma > 0)
+    for (int t = 1; t <= radius; ++t) w[t] = std::exp(-0.5 * (t / sigma) * (t / sigma));
+  return w;
+}
+
+double sum_of(const std::vector<double>& w) {
+  double sum = 0;
+  for (std::size_t t = w.size() - 1; t > 0; --t) sum += 2 * w[t];
+  return sum + w[0];
+}
+
+}  // namespace
+
+Status validate(const GaussianBlurParams& p) {
+  LUXEL_CHECK(check_range("GaussianBlurParams.width", p.width, 1, 65535));
+  LUXEL_CHECK(check_range("GaussianBlurParams.height", p.height, 1, 65535));
+  const auto stride = [&](const char* field, int value) {
+    return value == 0 ? Status() : check_range(field, value, p.width, 1 << 20);
+  };
+  LUXEL_CHECK(stride("GaussianBlurParams.src_stride", p.src_stride));
+  LUXEL_CHECK(stride("GaussianBlurParams.dst_stride", p.dst_stride));
+  LUXEL_CHECK(check_range("GaussianBlurParams.sigma", p.sigma, 0.0, 10000.0));
+  LUXEL_CHECK(check_range("GaussianBlurParams.radius", p.radius, -1, max_radius));
+  if (p.radius < 0 && std::ceil(3 * p.sigma) > max_radius)
+    return out_of_range("GaussianBlurParams.sigma", p.sigma, "0..1365, or a radius given (0..4095)");
+  LUXEL_CHECK(check_range("GaussianBlurParams.border", static_cast<int>(p.border), 0, 3));
+  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 2));
+  LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 1));
+  if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
+    return out_of_range("GaussianBlurParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
+  if (p.keep_alpha && channels(p.format) != 4)
+    return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for a format of fewer than four channels");
+  if (p.variant == GaussianVariant::direct)
+    LUXEL_CHECK(check_range("GaussianBlurParams.radius of variant direct", effective_radius(p), 0, max_direct_radius));
+  if (p.variant == GaussianVariant::sampler) {
+    if (p.input != Input::image) return out_of_range("GaussianBlurParams.input", "buffer", "image for variant sampler");
+    if (p.border == Border::mirror || p.border == Border::zero)
+      return out_of_range("GaussianBlurParams.border", p.border == Border::mirror ? "mirror" : "zero",
+                          "clamp or wrap for variant sampler");
+    if (p.difference) return out_of_range("GaussianBlurParams.difference", "true", "false for variant sampler");
+    if (p.keep_alpha) return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for variant sampler");
+  }
+  const long long pixels = static_cast<long long>(std::max(p.src_stride, p.dst_stride) > 0
+                                                      ? std::max({p.src_stride, p.dst_stride, p.width}) : p.width) * p.height;
+  if (pixels * channels(p.format) > 0x7fffffffLL)
+    return out_of_range("GaussianBlurParams.height", p.height, "stride x height x channels of at most 2147483647");
+  return {};
+}
+
+int effective_radius(const GaussianBlurParams& p) {
+  int radius = p.radius >= 0 ? p.radius : static_cast<int>(std::ceil(3 * p.sigma));
+  radius = std::clamp(radius, 0, max_radius);
+  const std::vector<double> w = raw_weights(p.sigma, radius);
+  const double sum = sum_of(w);
+  // Taps that are zero or denormal in f32 change nothing, and denormals are slow.
+  while (radius > 0 && w[radius] / sum < FLT_MIN) --radius;
+  if (p.drop_taps) {
+    double dropped = 0;
+    while (radius > 0 && (dropped += 2 * w[radius] / sum) <= half_step(p.format)) --radius;
+  }
+  return radius;
+}
+
+std::vector<double> gaussian_weights(double sigma, int radius, bool rounded) {
+  std::vector<double> w = raw_weights(sigma, radius);
+  const double sum = sum_of(w);
+  for (double& v : w) v /= sum;
+  if (!rounded) return w;
+  for (double& v : w) v = static_cast<float>(v);
+  // The kernel adds w(0), then 2 w(t) for t = 1, 2, ...: move the centre by what that sum misses 1.0f by. Where rounding
+  // steps over 1.0f, the next smaller neighbours take up the rest.
+  const auto kernel_sum = [&] {
+    float s = static_cast<float>(w[0]);
+    for (int t = 1; t <= radius; ++t) s += static_cast<float>(w[t]) * 2.0f;
+    return s;
+  };
+  for (int tries = 0, at = 0; tries < 64 * (radius + 1); ++tries) {
+    const float missing = 1.0f - kernel_sum();
+    if (missing == 0.0f) break;
+    const float before = static_cast<float>(w[at]);
+    const float after = before + (at == 0 ? missing : missing * 0.5f);
+    w[at] = after == before ? std::nextafter(before, missing > 0 ? 2.0f : 0.0f) : after;
+    if (tries % 8 == 7) at = (at + 1) % (radius + 1);
+  }
+  return w;
+}
+
+Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
+  LUXEL_CHECK(validate(p));
+  const int n = channels(p.format);
+  const int src_stride = p.src_stride ? p.src_stride : p.width;
+  const int dst_stride = p.dst_stride ? p.dst_stride : p.width;
+  const int radius = effective_radius(p);
+  const int radius_x = p.width > 1 ? radius : 0;   // along an axis of one pixel every border gives that pixel
+  const int radius_y = p.height > 1 ? radius : 0;
+  const bool separable = p.variant != GaussianVariant::direct;
+  const bool two = separable && radius_x > 0 && radius_y > 0;
+
+  Planner planner("gaussian_blur");
+  Resource src{"src"}, dst{"dst"};
+  src.format = dst.format = p.format;
+  src.extent = {p.width, p.height, 1};
+  src.bytes = (static_cast<std::size_t>(p.height - 1) * src_stride + p.width) * bytes_per_pixel(p.format);
+  dst.bytes = (static_cast<std::size_t>(p.height - 1) * dst_stride + p.width) * bytes_per_pixel(p.format);
+  dst.written = true;
+  src.may_alias = dst.may_alias = two;
+  if (p.input == Input::image) {
+    src.kind = p.variant == GaussianVariant::sampler ? ResourceKind::sampled_image : ResourceKind::image;
+    src.address = p.border == Border::wrap ? Address::wrap : Address::clamp;
+    src.bytes = 0;
+    src.may_alias = false;
+  }
+  const Slot from = planner.resource(src);
+  const Slot to = planner.resource(dst);
+  const std::string name_of = name(p.format);
+  const Format middle_format = n == 1 ? Format::f32x1 : n == 2 ? Format::f32x2 : Format::f32x4;
+  const std::string middle_name = name(middle_format);
+  const std::string input = p.input == Input::image ? "image_" + name_of : name_of;
+
+  const auto weights = [&](int r) {
+    return planner.table(gaussian_weights(p.sigma, r, true), gaussian_weights(p.sigma, r, false));
+  };
+  const auto pixels = static_cast<double>(p.width) * p.height;
+
+  if (!separable) {
+    const Shape& shape = profile.pixels;
+    const int lanes = std::max(shape.lanes, n);
+    planner.pass("gaussian_blur_direct", input, "gaussian_blur direct",
+                 {static_cast<std::uint32_t>((p.width + lanes / n - 1) / (lanes / n)), static_cast<std::uint32_t>(p.height), 1},
+                 shape.workgroup,
+                 {{"width", p.width}, {"height", p.height}, {"src_stride", src_stride}, {"dst_stride", dst_stride}},
+                 {{"RADIUS_X", radius_x}, {"RADIUS_Y", radius_y}, {"BORDER", static_cast<int>(p.border)},
+                  {"DIFFERENCE", p.difference}, {"KEEP_ALPHA", p.keep_alpha},
+                  {"UNROLLED", radius_x <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes}},
+                 {{"src", from}, {"dst", to}, {"weights", weights(radius)}});
+    planner.cost(pixels * n * 2 * (2 * radius_x + 1) * (2 * radius_y + 1), pixels * 2 * bytes_per_pixel(p.format));
+    return std::move(planner).finish();
+  }
+
+  const auto axis_pass = [&](int axis, int r, const std::string& module, int in_stride, int out_stride, Slot in, Slot out,
+                             Slot table, double pass_bytes) {
+    const Shape& shape = axis == 0 ? profile.rows : profile.columns;
+    const int lanes = std::max(shape.lanes, n);
+    const int wide_pixels = lanes / n;
+    const bool sideways = axis == 0 && wide_pixels == 1;
+    const int across = sideways ? shape.block : wide_pixels;
+    const int down = sideways ? 1 : shape.block;
+    planner.pass("gaussian_blur", module, axis == 0 ? "gaussian_blur rows" : "gaussian_blur columns",
+                 {static_cast<std::uint32_t>((p.width + across - 1) / across),
+                  static_cast<std::uint32_t>((p.height + down - 1) / down), 1},
+                 shape.workgroup,
+                 {{"width", p.width}, {"height", p.height}, {"src_stride", in_stride}, {"dst_stride", out_stride}},
+                 {{"RADIUS", r}, {"AXIS", axis}, {"BORDER", static_cast<int>(p.border)}, {"DIFFERENCE", p.difference},
+                  {"KEEP_ALPHA", p.keep_alpha}, {"UNROLLED", r <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes},
+                  {"BLOCK", shape.block}},
+                 {{"src", in}, {"dst", out}, {"weights", table}});
+    planner.cost(pixels * n * (1 + 3.0 * r), pass_bytes);
+  };
+  const double edge = pixels * bytes_per_pixel(p.format);
+  const double inner = pixels * bytes_per_pixel(middle_format);
+  const Slot table = weights(radius);
+  if (two) {
+    const Slot middle = planner.scratch(middle_format, static_cast<std::size_t>(p.width) * p.height);
+    const bool same = p.format == middle_format;
+    axis_pass(0, radius_x, same ? input : input + "_" + middle_name, src_stride, p.width, from, middle, table, edge + inner);
+    axis_pass(1, radius_y, same ? name_of : middle_name + "_" + name_of, p.width, dst_stride, middle, to, table, inner + edge);
+  } else {
+    const int axis = radius_y > 0 ? 1 : 0;
+    axis_pass(axis, axis == 0 ? radius_x : radius_y, input, src_stride, dst_stride, from, to, table, 2 * edge);
+  }
+  return std::move(planner).finish();
+}
+
+}  // namespace luxel

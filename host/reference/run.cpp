@@ -1,0 +1,161 @@
+#include <luxel/reference.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <thread>
+
+#include "host/module.h"
+#include "host/reference/dispatch.h"
+
+namespace luxel::reference {
+
+namespace {
+
+std::size_t texel_bytes(Format format, Precision precision) {
+  return precision == Precision::real32 || format == Format::u32 ? bytes_per_pixel(format) : channels(format) * sizeof(double);
+}
+
+std::string quantity(const std::string& kernel, const std::string& name, std::size_t has, std::size_t needs) {
+  return kernel + ": binding " + name + " has " + std::to_string(has) + " bytes; needs at least " + std::to_string(needs);
+}
+
+// The module's shape is fixed when it is compiled; a plan for another profile would count its invocations wrongly.
+Status check_shape(const Plan& plan) {
+  for (const Pass& pass : plan.passes)
+    for (std::size_t i = 0; i < pass.constants.size(); ++i) {
+      const ConstantInfo& info = pass.module->constants[i];
+      if (info.shape && pass.constants[i] != info.fallback)
+        return {Code::invalid_argument, plan.kernel + ": the plan is not for the profile `reference` (" + std::string(info.name) +
+                                            " is " + std::to_string(static_cast<long long>(pass.constants[i])) + "; expected " +
+                                            std::to_string(static_cast<long long>(info.fallback)) + ")"};
+    }
+  return {};
+}
+
+// Runs workgroups on all threads, a chunk at a time.
+void run_pass(const Pass& pass, Dispatch dispatch, Precision precision, int threads) {
+  const auto run = precision == Precision::real32 ? pass.module->run_float : pass.module->run_double;
+  const std::size_t total = static_cast<std::size_t>(dispatch.groups[0]) * dispatch.groups[1] * dispatch.groups[2];
+  const std::size_t chunk = std::max<std::size_t>(1, total / (static_cast<std::size_t>(threads) * 16));
+  std::atomic<std::size_t> next{0};
+  const auto work = [&] {
+    for (;;) {
+      Dispatch part = dispatch;
+      part.first = next.fetch_add(chunk);
+      if (part.first >= total) return;
+      part.last = std::min(total, part.first + chunk);
+      run(part);
+    }
+  };
+  std::vector<std::jthread> others;
+  for (int i = 1; i < threads && static_cast<std::size_t>(i) < total; ++i) others.emplace_back(work);
+  work();
+}
+
+}  // namespace
+
+std::size_t resource_bytes(const Resource& resource, Precision precision) {
+  if (resource.kind == ResourceKind::buffer)
+    return resource.bytes / bytes_per_pixel(resource.format) * texel_bytes(resource.format, precision);
+  return static_cast<std::size_t>(resource.extent[0]) * resource.extent[1] * resource.extent[2] *
+         texel_bytes(resource.format, precision);
+}
+
+Status run(const Plan& plan, const std::vector<Binding>& bindings, Precision precision, int threads) {
+  if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  if (Status status = check_shape(plan); !status) return status;
+
+  std::vector<Memory> resources(plan.resources.size());
+  Binding scratch;
+  for (const Binding& binding : bindings) {
+    const auto found = std::find_if(plan.resources.begin(), plan.resources.end(),
+                                    [&](const Resource& resource) { return resource.name == binding.name; });
+    if (found != plan.resources.end()) {
+      Memory& memory = resources[found - plan.resources.begin()];
+      memory = {binding.data, binding.bytes, found->extent, found->format, found->address};
+    } else if (binding.name == "scratch") {
+      scratch = binding;
+    } else {
+      return {Code::invalid_argument, plan.kernel + ": there is no binding " + std::string(binding.name)};
+    }
+  }
+  for (std::size_t i = 0; i < resources.size(); ++i) {
+    const Resource& resource = plan.resources[i];
+    if (!resources[i].data) return {Code::invalid_argument, plan.kernel + ": binding " + resource.name + " is missing"};
+    const std::size_t needs = resource_bytes(resource, precision);
+    if (resources[i].bytes < needs)
+      return {Code::invalid_argument, quantity(plan.kernel, resource.name, resources[i].bytes, needs)};
+    for (std::size_t j = 0; j < i; ++j) {
+      const Resource& other = plan.resources[j];
+      const auto a = static_cast<const char*>(resources[i].data), b = static_cast<const char*>(resources[j].data);
+      if ((resource.written || other.written) && !(resource.may_alias && other.may_alias) &&
+          a < b + resource_bytes(other, precision) && b < a + needs)
+        return {Code::invalid_argument,
+                plan.kernel + ": bindings " + other.name + " and " + resource.name + " overlap; this plan needs them apart"};
+    }
+  }
+
+  std::unique_ptr<std::byte[]> own;
+  std::size_t own_bytes = 0;
+  std::vector<std::size_t> offsets;
+  for (const ScratchRegion& region : plan.scratch) {
+    offsets.push_back(own_bytes);
+    own_bytes += (region.count * texel_bytes(region.format, precision) + 255) / 256 * 256;
+  }
+  std::byte* base = nullptr;
+  if (scratch.data && precision == Precision::real32) {
+    if (scratch.bytes < plan.scratch_bytes)
+      return {Code::invalid_argument, quantity(plan.kernel, "scratch", scratch.bytes, plan.scratch_bytes)};
+    base = static_cast<std::byte*>(scratch.data);
+    for (std::size_t i = 0; i < plan.scratch.size(); ++i) offsets[i] = plan.scratch[i].offset;
+  } else if (own_bytes > 0) {
+    own.reset(new (std::nothrow) std::byte[own_bytes]);
+    if (!own) return {Code::out_of_memory, plan.kernel + ": no memory for " + std::to_string(own_bytes) + " bytes of scratch"};
+    base = own.get();
+  }
+
+  std::vector<std::vector<float>> tables;
+  for (const auto& table : plan.tables) tables.emplace_back(table.begin(), table.end());
+  std::atomic<std::size_t> outside{0};
+  for (const Pass& pass : plan.passes) {
+    std::vector<Memory> memory;
+    for (const Slot& slot : pass.slots) {
+      if (slot.source == Slot::Source::resource) {
+        memory.push_back(resources[slot.index]);
+      } else if (slot.source == Slot::Source::scratch) {
+        const ScratchRegion& region = plan.scratch[slot.index];
+        Memory part;
+        part.data = base + offsets[slot.index];
+        part.bytes = region.count * texel_bytes(region.format, precision);
+        part.format = region.format;
+        memory.push_back(part);
+      } else {
+        Memory part;
+        const bool exact = precision == Precision::real64;
+        part.data = exact ? static_cast<void*>(const_cast<double*>(plan.exact_tables[slot.index].data()))
+                          : static_cast<void*>(tables[slot.index].data());
+        part.bytes = plan.tables[slot.index].size() * (exact ? sizeof(double) : sizeof(float));
+        memory.push_back(part);
+      }
+    }
+    Dispatch dispatch;
+    dispatch.bindings = memory;
+    dispatch.parameters = pass.parameters;
+    dispatch.constants = pass.constants;
+    for (int i = 0; i < 3; ++i) {
+      dispatch.workgroup[i] = static_cast<int>(pass.workgroup[i]);
+      dispatch.groups[i] = static_cast<int>(pass.groups[i]);
+    }
+    dispatch.outside = &outside;
+    run_pass(pass, dispatch, precision, threads);
+    if (outside > 0)
+      return {Code::internal, plan.kernel + ": pass " + pass.label + " made " + std::to_string(outside.load()) +
+                                  " accesses outside its bindings; they were not carried out"};
+  }
+  return {};
+}
+
+}  // namespace luxel::reference

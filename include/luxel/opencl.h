@@ -1,0 +1,68 @@
+// Running luxel plans on OpenCL 1.2. Borrows every handle; owns only programs and kernels.
+#pragma once
+#define CL_TARGET_OPENCL_VERSION 120
+#include <CL/cl.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <luxel/plan.h>
+
+namespace luxel::opencl {
+
+struct Adopt {
+  cl_context context = nullptr;
+  cl_device_id device = nullptr;
+  std::string cache_directory;  // program binaries; empty: none on disk
+};
+
+class Device {
+ public:
+  /// Borrow a context and a device of it. Errors: invalid_argument for a null handle.
+  static Result<Device> adopt(const Adopt& info);
+
+  const Profile& profile() const;
+  const std::string& name() const;    // as the driver reports it
+  const std::string& driver() const;  // platform name and driver version
+
+  struct State;
+  std::shared_ptr<State> state;
+};
+
+/// One resource of a plan: a buffer (offset in bytes, a multiple of the device's base address alignment) or an image.
+struct Binding {
+  std::string_view name;
+  cl_mem memory = nullptr;
+  std::size_t offset = 0;
+  std::size_t bytes = 0;  // available from offset; images: ignored
+};
+
+struct Enqueue {
+  const cl_event* wait = nullptr;  // the first pass waits for these
+  cl_uint wait_count = 0;
+  cl_event* done = nullptr;        // set to an event of the last pass; the caller releases it
+  std::vector<cl_event>* pass_events = nullptr;  // one event a pass, for timing; the caller releases them
+  bool tables_current = false;     // scratch still holds this pipeline's tables from an earlier call
+};
+
+/// A plan compiled for a device. One thread at a time may enqueue a pipeline; `clone` gives another thread its own.
+class Pipeline {
+ public:
+  /// Builds every program. Errors: unsupported, compile_failed (with the driver's log), out_of_memory.
+  static Result<Pipeline> create(const Device& device, Plan plan);
+
+  const Plan& plan() const;
+
+  /// Enqueues the plan's passes, in order also on an out-of-order queue. Does not flush or wait.
+  Status enqueue(cl_command_queue queue, const std::vector<Binding>& bindings, const Enqueue& options = {}) const;
+
+  /// The same programs with kernel objects of its own.
+  Result<Pipeline> clone() const;
+
+  struct State;
+  std::shared_ptr<State> state;
+};
+
+}  // namespace luxel::opencl

@@ -1,0 +1,128 @@
+// Plan: what a kernel's host code decides and an execution (OpenCL, Vulkan, C++) carries out.
+// A plan is pure data: it names no API and needs no device.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <luxel/status.h>
+
+namespace luxel {
+
+/// One kernel source with one choice of options, compiled for all three executions. Opaque to callers.
+struct Module;
+
+/// How the elements of a buffer or the texels of an image are stored. `xN`: channels per pixel.
+enum class Format { f32x1, f32x2, f32x4, f16x2, f16x4, unorm8x4, u32 };
+
+/// Bytes of one pixel (element) of a format.
+constexpr std::size_t bytes_per_pixel(Format format) {
+  switch (format) {
+    case Format::f32x1: case Format::u32: case Format::f16x2: case Format::unorm8x4: return 4;
+    case Format::f32x2: case Format::f16x4: return 8;
+    case Format::f32x4: return 16;
+  }
+  return 0;
+}
+
+/// Channels of one pixel.
+constexpr int channels(Format format) {
+  switch (format) {
+    case Format::f32x1: case Format::u32: return 1;
+    case Format::f32x2: case Format::f16x2: return 2;
+    case Format::f32x4: case Format::f16x4: case Format::unorm8x4: return 4;
+  }
+  return 0;
+}
+
+/// The name as spelled above.
+const char* name(Format format);
+
+/// What the caller binds to a resource of a plan.
+enum class ResourceKind {
+  buffer,         // storage buffer / cl_mem buffer / memory
+  image,          // sampled image read by integer coordinates (2-D or 3-D), no sampler
+  sampled_image,  // sampled image read through a linear sampler, which the pipeline owns
+  storage_image   // image that is written
+};
+
+/// How coordinates outside a sampled image are addressed.
+enum class Address { clamp, wrap };
+
+/// Something the caller brings: its name, kind, and the least size that is accepted.
+struct Resource {
+  std::string name;
+  ResourceKind kind = ResourceKind::buffer;
+  Format format = Format::f32x4;
+  std::size_t bytes = 0;                // buffers: least size in bytes
+  std::array<int, 3> extent{1, 1, 1};   // images: exact size in texels
+  Address address = Address::clamp;     // sampled images
+  bool written = false;
+  bool may_alias = false;               // may be bound to the same memory as another resource
+};
+
+/// A part of the scratch buffer: `count` elements of `format`. Offsets are multiples of 256 bytes.
+struct ScratchRegion {
+  Format format = Format::f32x4;
+  std::size_t count = 0;
+  std::size_t offset = 0;  // bytes
+};
+
+/// What one binding slot of a pass refers to.
+struct Slot {
+  enum class Source { resource, scratch, table } source = Source::resource;
+  int index = 0;  // into resources, scratch, or tables
+};
+
+/// One dispatch.
+struct Pass {
+  const Module* module = nullptr;
+  std::string label;                     // for debug labels and timings
+  std::vector<Slot> slots;               // in the order of the module's bindings
+  std::vector<double> parameters;        // in the order of the module's parameters
+  std::vector<double> constants;         // in the order of the module's constants
+  std::array<std::uint32_t, 3> workgroup{1, 1, 1};  // invocations
+  std::array<std::uint32_t, 3> groups{1, 1, 1};     // workgroups
+};
+
+/// Everything needed to run one call of a kernel. Passes run in order, each seeing what the one before wrote.
+struct Plan {
+  std::string kernel;
+  std::vector<Resource> resources;
+  std::vector<ScratchRegion> scratch;
+  std::vector<std::vector<double>> tables;  // small read-only tables (weights): the floats kept in the scratch buffer's first bytes
+  std::vector<std::vector<double>> exact_tables;  // the same before rounding, for the execution in double
+  std::vector<Pass> passes;
+  std::size_t scratch_bytes = 0;            // what the caller brings, tables included; 0: none needed
+  double flops = 0;                         // arithmetic of the whole plan (multiplications and additions)
+  double bytes = 0;                         // least memory traffic of the whole plan, each pass reading and writing once
+};
+
+/// Bytes at the start of the scratch buffer that table `index` begins at (each table has 16 KiB).
+constexpr std::size_t table_bytes = 16384;
+
+/// Shape of a kernel on a device: compile-time constants that decide speed, never the result.
+struct Shape {
+  int lanes = 0;     // neighbouring values per invocation; 0: one pixel
+  int block = 1;     // outputs per invocation along the pass
+  int unroll = 1;    // largest radius or loop that is fully unrolled
+  int split = 0;     // 1: inside and border take separate code
+  std::array<std::uint32_t, 3> workgroup{64, 1, 1};
+};
+
+/// What a device is fast at. Defaults exist for the drivers luxel knows; `luxel tune` finds others.
+struct Profile {
+  std::string name = "reference";  // reference | pocl | lavapipe | gpu | opencl_gpu
+  Shape rows;       // passes that run along rows of an image
+  Shape columns;    // passes that run along columns
+  Shape pixels;     // one invocation a pixel
+  Shape voxels;     // one invocation a voxel
+  bool workgroup_memory = false;   // forms with workgroup memory pay
+};
+
+/// Defaults by name (above). An unknown name gives `reference`.
+Profile profile(const std::string& name);
+
+}  // namespace luxel
