@@ -1,7 +1,5 @@
 #include "bindings.h"
 
-#include <algorithm>
-
 namespace luxel {
 namespace {
 
@@ -23,7 +21,9 @@ bool kind_fits(ResourceKind resource, BindingKind binding) {
 }
 
 bool slot_fits(const Plan& plan, const Slot& slot, const BindingInfo& binding) {
-  const auto within = [&](std::size_t count) { return slot.index >= 0 && static_cast<std::size_t>(slot.index) < count; };
+  const auto within = [&](std::size_t count) {
+    return slot.index >= 0 && static_cast<std::size_t>(slot.index) < count;
+  };
   switch (slot.source) {
     case Slot::Source::resource:
       if (!within(plan.resources.size())) return false;
@@ -80,10 +80,11 @@ Result<std::vector<int>> match(const Plan& plan, std::span<const std::string_vie
     found[place] = static_cast<int>(i);
   }
   for (std::size_t place = 0; place < plan.resources.size(); ++place) {
-    if (found[place] < 0) return bad_binding(plan, plan.resources[place].name, "is missing; expected " + expected_names(plan));
+    if (found[place] < 0)
+      return bad_binding(plan, plan.resources[place].name, "is missing; expected " + expected_names(plan));
   }
   if (found.back() < 0 && plan.scratch_bytes > 0)
-    return bad_binding(plan, "scratch", "is missing; expected at least " + std::to_string(plan.scratch_bytes) + " bytes");
+    return bad_binding(plan, "scratch", "is missing; needs at least " + std::to_string(plan.scratch_bytes) + " bytes");
   return found;
 }
 

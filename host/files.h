@@ -21,7 +21,8 @@ bool read_file(const std::string& path, std::vector<std::uint8_t>& content);
 /// folders. False when that fails; nothing is left behind then.
 bool write_file_atomically(const std::string& path, std::span<const std::uint8_t> content);
 
-/// What write_checked wrote. False for a file that is missing, truncated, lengthened or altered; `payload` is empty then.
+/// What write_checked wrote. False for a file that is missing, truncated, lengthened or altered; `payload` is empty
+/// then.
 bool read_checked(const std::string& path, std::vector<std::uint8_t>& payload);
 
 /// Writes magic, length, checksum and payload, atomically.
