@@ -1,0 +1,8 @@
+// The parts of stb that are built in: PNG in and out, HDR out, from and to memory.
+#pragma once
+#define STBI_ONLY_PNG
+#define STBI_NO_STDIO
+#define STBI_NO_FAILURE_STRINGS
+#include <stb/stb_image.h>
+#define STBI_WRITE_NO_STDIO
+#include <stb/stb_image_write.h>
