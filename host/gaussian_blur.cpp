@@ -89,27 +89,48 @@ int effective_radius(const GaussianBlurParams& p) {
   return radius;
 }
 
+namespace {
+
+// Rounds weights to floats whose sum, added as the kernels add a constant 1 (the centre, then each other one twice), is
+// exactly 1.0f: the centre moves by what is missing; where rounding steps over 1.0f, a neighbour takes up the rest.
+// `step`: distance between weights in the table.
+void round_to_one(std::vector<double>& w, std::size_t step) {
+  for (double& v : w) v = static_cast<float>(v);
+  const auto kernel_sum = [&] {
+    float s = static_cast<float>(w[0]);
+    for (std::size_t t = 1; t < w.size(); t += step) s += static_cast<float>(w[t]) * 2.0f;
+    return s;
+  };
+  std::size_t at = 0;
+  for (std::size_t tries = 1; tries < 64 * w.size(); ++tries) {
+    const float missing = 1.0f - kernel_sum();
+    if (missing == 0.0f) return;
+    const float before = static_cast<float>(w[at]);
+    const float after = before + (at == 0 ? missing : missing * 0.5f);
+    w[at] = after == before ? std::nextafter(before, missing > 0 ? 2.0f : 0.0f) : after;
+    if (tries % 8 == 0) at = at == 0 ? 1 : at + step < w.size() ? at + step : 0;
+  }
+}
+
+// Two taps at t and t + 1 become one between them: [centre, weight, distance, weight, distance ...].
+std::vector<double> sampler_table(double sigma, int radius) {
+  const std::vector<double> w = gaussian_weights(sigma, radius, false);
+  std::vector<double> table{w[0]};
+  for (int t = 1; t <= radius; t += 2) {
+    const double next = t < radius ? w[t + 1] : 0.0;
+    table.push_back(w[t] + next);
+    table.push_back(t + next / (w[t] + next));
+  }
+  return table;
+}
+
+}  // namespace
+
 std::vector<double> gaussian_weights(double sigma, int radius, bool rounded) {
   std::vector<double> w = raw_weights(sigma, radius);
   const double sum = sum_of(w);
   for (double& v : w) v /= sum;
-  if (!rounded) return w;
-  for (double& v : w) v = static_cast<float>(v);
-  // The kernel adds w(0), then 2 w(t) for t = 1, 2, ...: move the centre by what that sum misses 1.0f by. Where rounding
-  // steps over 1.0f, the next smaller neighbours take up the rest.
-  const auto kernel_sum = [&] {
-    float s = static_cast<float>(w[0]);
-    for (int t = 1; t <= radius; ++t) s += static_cast<float>(w[t]) * 2.0f;
-    return s;
-  };
-  for (int tries = 0, at = 0; tries < 64 * (radius + 1); ++tries) {
-    const float missing = 1.0f - kernel_sum();
-    if (missing == 0.0f) break;
-    const float before = static_cast<float>(w[at]);
-    const float after = before + (at == 0 ? missing : missing * 0.5f);
-    w[at] = after == before ? std::nextafter(before, missing > 0 ? 2.0f : 0.0f) : after;
-    if (tries % 8 == 7) at = (at + 1) % (radius + 1);
-  }
+  if (rounded) round_to_one(w, 1);
   return w;
 }
 
@@ -122,6 +143,7 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   const int radius_x = p.width > 1 ? radius : 0;   // along an axis of one pixel every border gives that pixel
   const int radius_y = p.height > 1 ? radius : 0;
   const bool separable = p.variant != GaussianVariant::direct;
+  const bool sampler = p.variant == GaussianVariant::sampler;
   const bool two = separable && radius_x > 0 && radius_y > 0;
 
   Planner planner("gaussian_blur");
@@ -131,12 +153,11 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   src.bytes = (static_cast<std::size_t>(p.height - 1) * src_stride + p.width) * bytes_per_pixel(p.format);
   dst.bytes = (static_cast<std::size_t>(p.height - 1) * dst_stride + p.width) * bytes_per_pixel(p.format);
   dst.written = true;
-  src.may_alias = dst.may_alias = two;
+  src.may_alias = dst.may_alias = two && p.input == Input::buffer;
   if (p.input == Input::image) {
-    src.kind = p.variant == GaussianVariant::sampler ? ResourceKind::sampled_image : ResourceKind::image;
+    src.kind = sampler ? ResourceKind::sampled_image : ResourceKind::image;
     src.address = p.border == Border::wrap ? Address::wrap : Address::clamp;
     src.bytes = 0;
-    src.may_alias = false;
   }
   const Slot from = planner.resource(src);
   const Slot to = planner.resource(dst);
@@ -160,8 +181,41 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
                  {{"RADIUS_X", radius_x}, {"RADIUS_Y", radius_y}, {"BORDER", static_cast<int>(p.border)},
                   {"DIFFERENCE", p.difference}, {"KEEP_ALPHA", p.keep_alpha},
                   {"UNROLLED", radius_x <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes}},
-                 {{"src", from}, {"dst", to}, {"weights", weights(radius)}});
+                 {{"src", from}, {"dst", to}, {"row_weights", weights(radius_x)}, {"column_weights", weights(radius_y)}});
     planner.cost(pixels * n * 2 * (2 * radius_x + 1) * (2 * radius_y + 1), pixels * 2 * bytes_per_pixel(p.format));
+    return std::move(planner).finish();
+  }
+
+  if (sampler) {
+    std::vector<double> exact = sampler_table(p.sigma, radius), rounded = exact;
+    round_to_one(rounded, 2);
+    const Slot table = planner.table(rounded, exact);
+    const Slot one = planner.table({1.0}, {1.0});
+    const auto sampler_pass = [&](int axis, int r, const std::string& module, int stride, Slot in, Slot out, double pass_bytes) {
+      const Shape& shape = profile.pixels;
+      planner.pass("gaussian_blur_sampler", module, axis == 0 ? "gaussian_blur sampler rows" : "gaussian_blur sampler columns",
+                   {static_cast<std::uint32_t>(p.width), static_cast<std::uint32_t>(p.height), 1}, shape.workgroup,
+                   {{"width", p.width}, {"height", p.height}, {"dst_stride", stride},
+                    {"pixel_x", 1.0 / p.width}, {"pixel_y", 1.0 / p.height}},
+                   {{"PAIRS", (r + 1) / 2}, {"AXIS", axis}, {"UNROLLED", r <= shape.unroll}},
+                   {{"src", in}, {"dst", out}, {"weights", r > 0 ? table : one}});
+      planner.cost(pixels * n * (1 + 3.0 * ((r + 1) / 2)), pass_bytes);
+    };
+    const double edge = pixels * bytes_per_pixel(p.format);
+    if (two) {
+      Resource middle{"middle"};
+      middle.kind = ResourceKind::storage_image;
+      middle.format = middle_format;
+      middle.extent = src.extent;
+      middle.address = src.address;
+      middle.written = true;
+      const Slot between = planner.resource(middle);
+      const double inner = pixels * bytes_per_pixel(middle_format);
+      sampler_pass(0, radius_x, "to_image_" + middle_name, p.width, from, between, edge + inner);
+      sampler_pass(1, radius_y, name_of, dst_stride, between, to, edge + inner);
+    } else {
+      sampler_pass(radius_y > 0 ? 1 : 0, std::max(radius_x, radius_y), name_of, dst_stride, from, to, 2 * edge);
+    }
     return std::move(planner).finish();
   }
 

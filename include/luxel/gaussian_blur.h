@@ -37,7 +37,9 @@ struct GaussianBlurParams {
   bool drop_taps = false;     // leave out outer taps whose weights sum to less than half a step of unorm8 or f16
 };
 
-/// Resources of the plan: `src`, `dst`, `scratch`. `src == dst` is allowed for buffers of `separable`.
+/// Resources of the plan: `src`, `dst`, `scratch`; `sampler` with two passes also `middle`, an image of src's size (f32 of
+/// src's channels) that is written and then sampled. src and dst may be the same buffer where `separable` takes two passes
+/// (radius and both extents above 0 and 1); elsewhere an execution refuses that.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const GaussianBlurParams& params);
 

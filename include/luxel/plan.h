@@ -45,7 +45,7 @@ enum class ResourceKind {
   buffer,         // storage buffer / cl_mem buffer / memory
   image,          // sampled image read by integer coordinates (2-D or 3-D), no sampler
   sampled_image,  // sampled image read through a linear sampler, which the pipeline owns
-  storage_image   // image that is written
+  storage_image   // image that is written; a later pass may sample it
 };
 
 /// How coordinates outside a sampled image are addressed.
