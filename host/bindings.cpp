@@ -1,4 +1,4 @@
-#include "bindings.h"
+#include "host/bindings.h"
 
 namespace luxel {
 namespace {
@@ -39,6 +39,7 @@ bool slot_fits(const Plan& plan, const Slot& slot, const BindingInfo& binding) {
 
 Status check(const Plan& plan) {
   const auto defect = [&](const std::string& what) { return Status(Code::internal, plan.kernel + ": " + what); };
+  if (plan.exact_tables.size() != plan.tables.size()) return defect("tables and exact_tables differ in number");
   for (const auto& table : plan.tables) {
     if (table.size() * sizeof(float) > table_bytes)
       return defect("a table of " + std::to_string(table.size()) + " floats; at most " +
@@ -64,6 +65,16 @@ Status check(const Plan& plan) {
     for (int axis = 0; axis < 3; ++axis) {
       if (pass.workgroup[static_cast<std::size_t>(axis)] == 0 || pass.groups[static_cast<std::size_t>(axis)] == 0)
         return pass_defect("has an empty workgroup or no workgroups");
+    }
+  }
+  const std::vector<Use> use = uses(plan);
+  for (std::size_t a = 0; a < use.size(); ++a) {
+    if (use[a].first_write >= 0 && !plan.resources[a].written)
+      return defect(plan.resources[a].name + " is written, but not marked so");
+    for (std::size_t b = 0; b < use.size(); ++b) {
+      if (a != b && plan.resources[a].may_alias && plan.resources[b].may_alias && use[a].first_write >= 0 &&
+          use[b].last_use >= use[a].first_write)
+        return defect(plan.resources[b].name + " may not share memory with " + plan.resources[a].name);
     }
   }
   return {};
@@ -105,20 +116,25 @@ std::vector<Use> uses(const Plan& plan) {
 }
 
 std::vector<std::pair<int, int>> exclusive(const Plan& plan) {
-  const std::vector<Use> use = uses(plan);
-  const int count = static_cast<int>(use.size());
+  const std::vector<Resource>& resources = plan.resources;
   std::vector<std::pair<int, int>> pairs;
-  const auto spoils = [&](int writer, int other) {
-    const int write = use[static_cast<std::size_t>(writer)].first_write;
-    return write >= 0 && use[static_cast<std::size_t>(other)].last_use >= write;
-  };
-  for (int a = 0; a < count; ++a) {
-    for (int b = a + 1; b < count; ++b) {
-      if (spoils(a, b) || spoils(b, a)) pairs.emplace_back(a, b);
+  for (std::size_t a = 0; a < resources.size(); ++a) {
+    for (std::size_t b = a + 1; b < resources.size(); ++b) {
+      if ((resources[a].written || resources[b].written) && !(resources[a].may_alias && resources[b].may_alias))
+        pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
     }
-    pairs.emplace_back(a, count);
+    pairs.emplace_back(static_cast<int>(a), static_cast<int>(resources.size()));
   }
   return pairs;
+}
+
+Status overlapping(const Plan& plan, std::pair<int, int> pair) {
+  const auto name = [&](int index) {
+    const std::size_t place = static_cast<std::size_t>(index);
+    return place < plan.resources.size() ? plan.resources[place].name : std::string("scratch");
+  };
+  return Status(Code::invalid_argument, plan.kernel + ": bindings " + name(pair.first) + " and " + name(pair.second) +
+                                            " overlap; this plan needs them apart");
 }
 
 Status bad_binding(const Plan& plan, std::string_view name, const std::string& what) {

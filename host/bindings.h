@@ -9,7 +9,7 @@
 
 #include <luxel/plan.h>
 
-#include "module.h"
+#include "host/module.h"
 
 namespace luxel {
 
@@ -24,7 +24,8 @@ constexpr bool is_written(BindingKind kind) {
 }
 constexpr bool is_read(BindingKind kind) { return !is_written(kind) || kind == BindingKind::update; }
 
-/// A plan whose slots, parameters and constants do not fit its modules is a defect: Code::internal.
+/// A plan whose slots, parameters and constants do not fit its modules, or that calls resources `may_alias` although one
+/// is still used when or after the other is written, is a defect: Code::internal.
 Status check(const Plan& plan);
 
 /// For each resource of the plan, and then for `scratch`, the index of its name in `names`; -1 for scratch where it is
@@ -39,9 +40,12 @@ struct Use {
 };
 std::vector<Use> uses(const Plan& plan);
 
-/// Pairs of different resources that may not share memory: one is still used when or after the other is written.
-/// Indices as `match` gives them, with scratch as the last, which shares with none.
+/// Pairs of different resources that may not share memory: one is written, and not both are `may_alias`. Indices as
+/// `match` gives them, with scratch as the last, which shares with none.
 std::vector<std::pair<int, int>> exclusive(const Plan& plan);
+
+/// `gaussian_blur: bindings src and dst overlap ...`, for a pair of exclusive().
+Status overlapping(const Plan& plan, std::pair<int, int> pair);
 
 /// `gaussian_blur: binding dst ...`
 Status bad_binding(const Plan& plan, std::string_view name, const std::string& what);

@@ -1,4 +1,4 @@
-#include "files.h"
+#include "host/files.h"
 
 #include <atomic>
 #include <cstdlib>

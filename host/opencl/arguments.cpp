@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "pipeline.h"
+#include "host/opencl/pipeline.h"
 
 namespace luxel::opencl {
 namespace {
@@ -130,11 +130,8 @@ Result<std::vector<Range>> check_bindings(const Shared& shared, std::span<const 
     return bad_binding(plan, "scratch", "forbids the host to write, but tables are written to it");
   if (Status status = check_dimensions(shared, ranges); !status) return status;
   for (const auto& [a, b] : shared.exclusive) {
-    const std::size_t first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
-    if (!overlap(ranges[first], ranges[second])) continue;
-    const std::string other = second == plan.resources.size() ? "scratch" : plan.resources[second].name;
-    return bad_binding(plan, plan.resources[first].name,
-                       "shares memory with " + other + ", which this plan does not allow; bind separate memory");
+    if (overlap(ranges[static_cast<std::size_t>(a)], ranges[static_cast<std::size_t>(b)]))
+      return overlapping(plan, {a, b});
   }
   return ranges;
 }

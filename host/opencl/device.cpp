@@ -1,4 +1,4 @@
-#include "device.h"
+#include "host/opencl/device.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include <map>
 #include <mutex>
 
-#include "handles.h"
+#include "host/opencl/handles.h"
 
 namespace luxel::opencl {
 

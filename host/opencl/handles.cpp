@@ -1,4 +1,4 @@
-#include "handles.h"
+#include "host/opencl/handles.h"
 
 #include <CL/cl_ext.h>
 

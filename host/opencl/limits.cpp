@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "bindings.h"
-#include "device.h"
+#include "host/bindings.h"
+#include "host/opencl/device.h"
 
 namespace luxel::opencl {
 namespace {

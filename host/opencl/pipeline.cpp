@@ -1,4 +1,4 @@
-#include "pipeline.h"
+#include "host/opencl/pipeline.h"
 
 #include <array>
 #include <cstring>

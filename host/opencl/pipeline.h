@@ -4,9 +4,9 @@
 #include <string_view>
 #include <utility>
 
-#include "bindings.h"
-#include "device.h"
-#include "program.h"
+#include "host/bindings.h"
+#include "host/opencl/device.h"
+#include "host/opencl/program.h"
 
 namespace luxel::opencl {
 

@@ -1,10 +1,10 @@
-#include "program.h"
+#include "host/opencl/program.h"
 
 #include <charconv>
 #include <cmath>
 #include <cstring>
 
-#include "files.h"
+#include "host/files.h"
 
 namespace luxel::opencl {
 namespace {

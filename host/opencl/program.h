@@ -1,7 +1,7 @@
 // Programs: one per module, constants and workgroup; from the device's memory, the disk, or the driver's compiler.
 #pragma once
-#include "device.h"
-#include "module.h"
+#include "host/opencl/device.h"
+#include "host/module.h"
 
 namespace luxel::opencl {
 
