@@ -71,7 +71,7 @@ write_program() {
   cat >"$root/program.sh" <<'END'
 #!/bin/sh
 case $1 in
-  devices) printf 'index  id                backend\n'; for name in $(cat "$FAKES/backends"); do echo "0  $name:A device  profile"; done ;;
+  devices) printf 'index  api     name\n'; for api in $(cat "$FAKES/backends"); do echo "0  $api  a vulkan device"; done ;;
   --help) echo "help of the program" ;;
   status) exit "$2" ;;
   where) pwd ;;
