@@ -40,8 +40,8 @@ bool is_cache_of(const std::vector<std::uint8_t>& data, const VkPhysicalDevicePr
 
 DiskCache::DiskCache(const Device::State& device, std::uint64_t module_hash) : device_(device.adopt.device) {
   if (device.adopt.cache_directory.empty()) return;
-  path_ = cache_path(device.adopt.cache_directory, device.properties, module_hash);
-  if (!read_checked(path_, on_disk_) || !is_cache_of(on_disk_, device.properties)) on_disk_.clear();
+  path_ = cache_path(device.adopt.cache_directory, device.physical.properties, module_hash);
+  if (!read_checked(path_, on_disk_) || !is_cache_of(on_disk_, device.physical.properties)) on_disk_.clear();
   auto info = structure<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
   info.initialDataSize = on_disk_.size();
   info.pInitialData = on_disk_.empty() ? nullptr : on_disk_.data();

@@ -1,22 +1,8 @@
-#include <algorithm>
-#include <cstring>
-
 #include "result.h"
 #include "state.h"
 
 namespace luxel::vulkan {
 namespace {
-
-bool has_driver_properties(VkPhysicalDevice physical, std::uint32_t api_version) {
-  if (api_version >= VK_API_VERSION_1_2) return true;
-  std::uint32_t count = 0;
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-  return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-    return std::strcmp(extension.extensionName, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME) == 0;
-  });
-}
 
 VkResult make_sampler(VkDevice device, VkSamplerAddressMode address, VkSampler& sampler) {
   auto info = structure<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
@@ -44,34 +30,22 @@ Result<Device> Device::adopt(const Adopt& info) {
   device.state = std::make_shared<State>();
   State& state = *device.state;
   state.adopt = info;
-  vkGetPhysicalDeviceProperties(info.physical, &state.properties);
-  state.name = state.properties.deviceName;
-  const std::uint32_t version = state.properties.apiVersion;
+  state.physical = describe(info.physical);
+  state.profile = luxel::profile(state.physical.profile);
+  const std::uint32_t version = state.physical.properties.apiVersion;
   if (version < VK_API_VERSION_1_1) {
-    return Status(Code::unsupported, state.name + " has Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
-                                         std::to_string(VK_API_VERSION_MINOR(version)) +
+    const std::string has = "1." + std::to_string(VK_API_VERSION_MINOR(version));
+    return Status(Code::unsupported, state.physical.name + " has Vulkan " + has +
                                          "; luxel needs 1.1: a newer driver or another device");
   }
 
-  auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
-  auto driver = structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
-  auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
-      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-  if (has_driver_properties(info.physical, version)) {
-    driver.pNext = properties.pNext;
-    properties.pNext = &driver;
-  }
   if (info.push_descriptor) {
-    push.pNext = properties.pNext;
+    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
+    auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2);
     properties.pNext = &push;
-  }
-  vkGetPhysicalDeviceProperties2(info.physical, &properties);
-  state.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-  if (driver.driverName[0] == '\0') state.driver = "driver version " + std::to_string(state.properties.driverVersion);
-  state.profile = luxel::profile(driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE ? "lavapipe" : "gpu");
-  state.max_push_descriptors = push.maxPushDescriptors;
-
-  if (info.push_descriptor) {
+    vkGetPhysicalDeviceProperties2(info.physical, &properties);
+    state.max_push_descriptors = push.maxPushDescriptors;
     state.push_descriptor_set = reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(
         vkGetDeviceProcAddr(info.device, "vkCmdPushDescriptorSetKHR"));
     if (!state.push_descriptor_set) {
@@ -97,8 +71,8 @@ Result<Device> Device::adopt(const Adopt& info) {
 }
 
 const Profile& Device::profile() const { return state->profile; }
-const std::string& Device::name() const { return state->name; }
-const std::string& Device::driver() const { return state->driver; }
+const std::string& Device::name() const { return state->physical.name; }
+const std::string& Device::driver() const { return state->physical.driver; }
 
 Device::State::~State() {
   if (adopt.device == VK_NULL_HANDLE) return;

@@ -14,6 +14,7 @@ namespace {
 Status compile(Device::State& device, const KernelKey& key, const std::string& label, Kernel& kernel) {
   const Module& module = *key.module;
   const VkDevice vk = device.adopt.device;
+  const std::string on = " on " + device.physical.name + " (" + device.physical.driver + ")";
 
   std::vector<VkDescriptorSetLayoutBinding> bindings;
   std::size_t sampled = 0;
@@ -53,8 +54,7 @@ Status compile(Device::State& device, const KernelKey& key, const std::string& l
   shader_info.pCode = module.spirv.data();
   VkShaderModule shader = VK_NULL_HANDLE;
   if (const VkResult result = vkCreateShaderModule(vk, &shader_info, nullptr, &shader)) {
-    return failure(label + ": vkCreateShaderModule on " + device.name + " (" + device.driver + ")", result,
-                   Code::compile_failed);
+    return failure(label + ": vkCreateShaderModule" + on, result, Code::compile_failed);
   }
 
   std::vector<VkSpecializationMapEntry> entries;
@@ -78,7 +78,7 @@ Status compile(Device::State& device, const KernelKey& key, const std::string& l
   if (result != VK_SUCCESS) {
     kernel.pipeline = VK_NULL_HANDLE;
     return failure(label + ": vkCreateComputePipelines for " + std::string(module.part) + " " +
-                       std::string(module.name) + " on " + device.name + " (" + device.driver + ")",
+                       std::string(module.name) + on,
                    result, Code::compile_failed);
   }
   cache.save();

@@ -18,7 +18,7 @@ class Checker {
 
   void at_most(const std::string& limit, std::uint64_t value, std::uint64_t needed, const std::string& by) {
     if (needed <= value) return;
-    fail(limit + " of " + device_.name + " is " + std::to_string(value) + "; " + by + " needs " +
+    fail(limit + " of " + device_.physical.name + " is " + std::to_string(value) + "; " + by + " needs " +
          std::to_string(needed));
   }
 
@@ -53,7 +53,7 @@ void check_pass(const VkPhysicalDeviceLimits& limits, const Pass& pass, Checker&
 }
 
 void check_descriptors(const Device::State& device, const Pass& pass, Checker& check) {
-  const VkPhysicalDeviceLimits& limits = device.properties.limits;
+  const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
   const std::string by = "pass " + pass.label;
   const auto count = [&](VkDescriptorType type) {
     const auto bindings = pass.module->bindings;
@@ -84,12 +84,12 @@ void check_format(const Device::State& device, VkFormat format, bool buffer, VkF
   const VkFormatFeatureFlags has = buffer ? properties.bufferFeatures : properties.optimalTilingFeatures;
   if ((has & needed) == needed) return;
   const bool linear = needed & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-  check.fail(device.name + " cannot use VkFormat " + std::to_string(static_cast<int>(format)) + " for " + by +
+  check.fail(device.physical.name + " cannot use VkFormat " + std::to_string(static_cast<int>(format)) + " for " + by +
              (buffer ? " as a texel buffer" : linear ? " with a linear sampler" : " as such an image"));
 }
 
 void check_resource(const Device::State& device, const Resource& resource, Checker& check) {
-  const VkPhysicalDeviceLimits& limits = device.properties.limits;
+  const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
   const std::string by = "binding " + resource.name;
   if (resource.kind == ResourceKind::buffer) return;
   const auto most = static_cast<std::uint64_t>(*std::max_element(resource.extent.begin(), resource.extent.end()));
@@ -106,7 +106,7 @@ void check_resource(const Device::State& device, const Resource& resource, Check
 
 void check_slot(const Device::State& device, const Plan& plan, const Slot& slot, const BindingInfo& info,
                 Checker& check) {
-  const VkPhysicalDeviceLimits& limits = device.properties.limits;
+  const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
   if (slot.source == Slot::Source::table) return;
   const std::size_t index = static_cast<std::size_t>(slot.index);
   std::uint64_t bytes = 0;
@@ -143,7 +143,7 @@ Status check_limits(const Device::State& device, const Plan& plan) {
   Checker check(device, plan);
   for (const Resource& resource : plan.resources) check_resource(device, resource, check);
   for (const Pass& pass : plan.passes) {
-    check_pass(device.properties.limits, pass, check);
+    check_pass(device.physical.properties.limits, pass, check);
     check_descriptors(device, pass, check);
     for (std::size_t i = 0; i < pass.slots.size(); ++i) {
       check_slot(device, plan, pass.slots[i], pass.module->bindings[i], check);

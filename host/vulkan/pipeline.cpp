@@ -130,7 +130,7 @@ Result<Pipeline> Pipeline::create(const Device& device, Plan plan) {
     if (!step) return step.status();
     state.steps.push_back(std::move(step).value());
   }
-  state.needs = make_needs(plan, state.steps, device.state->properties.limits);
+  state.needs = make_needs(plan, state.steps, device.state->physical.properties.limits);
   state.exclusive = exclusive(plan);
   for (const std::vector<double>& table : plan.tables) state.tables.emplace_back(table.begin(), table.end());
   for (const Step& step : state.steps) {

@@ -7,15 +7,14 @@
 #include <luxel/vulkan.h>
 
 #include "kernel.h"
+#include "physical.h"
 
 namespace luxel::vulkan {
 
 struct Device::State {
   Adopt adopt;
+  Physical physical;
   Profile profile;
-  std::string name;
-  std::string driver;
-  VkPhysicalDeviceProperties properties{};
   std::uint32_t max_push_descriptors = 0;
   VkSampler clamp_sampler = VK_NULL_HANDLE;
   VkSampler wrap_sampler = VK_NULL_HANDLE;
