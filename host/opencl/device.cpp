@@ -36,6 +36,15 @@ bool contains(cl_context context, cl_device_id device) {
 
 }  // namespace
 
+std::string driver_of(cl_device_id device) {
+  return text(value<cl_platform_id>(device, CL_DEVICE_PLATFORM), CL_PLATFORM_NAME) + " " +
+         text(device, CL_DRIVER_VERSION);
+}
+
+std::string profile_of(cl_device_id device) {
+  return value<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU ? "pocl" : "opencl_gpu";
+}
+
 Result<Device> Device::adopt(const Adopt& info) {
   const auto invalid = [](const char* what) {
     return Status(Code::invalid_argument, std::string("opencl::Adopt.") + what);
@@ -57,12 +66,9 @@ Result<Device> Device::adopt(const Adopt& info) {
   clRetainContext(info.context);
   state->context = OwnedContext(info.context);
   state->cache_directory = info.cache_directory;
-  const auto platform = value<cl_platform_id>(info.device, CL_DEVICE_PLATFORM);
-  const std::string platform_name = text(platform, CL_PLATFORM_NAME);
-  state->driver = platform_name + " " + text(info.device, CL_DRIVER_VERSION);
+  state->driver = driver_of(info.device);
   state->limits = limits_of(info.device);
-  const bool cpu = (value<cl_device_type>(info.device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0;
-  state->profile = luxel::profile(cpu ? "pocl" : "opencl_gpu");
+  state->profile = luxel::profile(profile_of(info.device));
 
   state->base_options = "-cl-std=CL1.2";
   const auto single = value<cl_device_fp_config>(info.device, CL_DEVICE_SINGLE_FP_CONFIG);
@@ -71,7 +77,8 @@ Result<Device> Device::adopt(const Adopt& info) {
   // PoCL keeps both steps of its compilation on disk itself (POCL_CACHE_DIR). Asking it for a program's binary makes it
   // compile, beside, a form of each kernel for any workgroup size, which no dispatch of ours uses: as long as the
   // dispatch's own compilation (65 to 620 ms measured), to save 20 ms a program at the next start.
-  state->keep_binaries = platform_name != "Portable Computing Language";
+  state->keep_binaries = text(value<cl_platform_id>(info.device, CL_DEVICE_PLATFORM), CL_PLATFORM_NAME) !=
+                         "Portable Computing Language";
 
   Device device;
   device.state = std::move(state);

@@ -41,6 +41,12 @@ struct Device::State {
   std::map<std::string, std::shared_ptr<BuiltProgram>> programs;
 };
 
+/// Platform name and driver version.
+std::string driver_of(cl_device_id device);
+
+/// The name of the profile that suits the device.
+std::string profile_of(cl_device_id device);
+
 /// Whether a plan fits the device: workgroups, workgroup memory, allocations, alignment, images, constant memory.
 /// Errors: unsupported, naming the limit, its value and what is needed.
 Status check_limits(const Device::State& device, const Plan& plan);
