@@ -1,10 +1,10 @@
-#include "cache.h"
+#include "host/vulkan/cache.h"
 
 #include <cstring>
 
 #include "host/files.h"
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {

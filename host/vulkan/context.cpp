@@ -1,7 +1,7 @@
-#include "context.h"
+#include "host/vulkan/context.h"
 
 #include "host/files.h"
-#include "program.h"
+#include "host/vulkan/program.h"
 
 namespace luxel::vulkan {
 namespace {

@@ -1,5 +1,5 @@
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {

@@ -1,4 +1,4 @@
-#include "instance.h"
+#include "host/vulkan/instance.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 namespace {

@@ -1,12 +1,12 @@
-#include "kernel.h"
+#include "host/vulkan/kernel.h"
 
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "cache.h"
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/cache.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {

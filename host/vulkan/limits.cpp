@@ -1,12 +1,12 @@
-#include "limits.h"
+#include "host/vulkan/limits.h"
 
 #include <algorithm>
 #include <array>
 
 #include "host/module.h"
-#include "kernel.h"
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/kernel.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {
@@ -98,10 +98,6 @@ void check_resource(const Device::State& device, const Resource& resource, Check
   } else {
     check.at_most("maxImageDimension2D", limits.maxImageDimension2D, most, by);
   }
-  VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
-  if (resource.kind == ResourceKind::sampled_image) needed |= VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
-  if (resource.kind == ResourceKind::storage_image) needed = VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-  check_format(device, vulkan_format(resource.format), false, needed, by, check);
 }
 
 void check_slot(const Device::State& device, const Plan& plan, const Slot& slot, const BindingInfo& info,
@@ -118,6 +114,11 @@ void check_slot(const Device::State& device, const Plan& plan, const Slot& slot,
     bytes = plan.resources[index].bytes;
     by = "binding " + plan.resources[index].name;
   }
+  constexpr VkFormatFeatureFlags linear =
+      VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+  const auto image = [&](VkFormatFeatureFlags needed) {
+    check_format(device, vulkan_format(plan.resources[index].format), false, needed, by, check);
+  };
   switch (descriptor_type(info.kind)) {
     case VK_DESCRIPTOR_TYPE_STORAGE_BUFFER:
       check.at_most("maxStorageBufferRange", limits.maxStorageBufferRange, bytes, by + " (a smaller image does)");
@@ -133,6 +134,9 @@ void check_slot(const Device::State& device, const Plan& plan, const Slot& slot,
       check_format(device, vulkan_format(info.type), true, VK_FORMAT_FEATURE_UNIFORM_TEXEL_BUFFER_BIT, by, check);
       break;
     }
+    case VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE: image(VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT); break;
+    case VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER: image(linear); break;
+    case VK_DESCRIPTOR_TYPE_STORAGE_IMAGE: image(VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT); break;
     default: break;
   }
 }

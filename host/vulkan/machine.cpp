@@ -1,10 +1,10 @@
-#include "machine.h"
+#include "host/vulkan/machine.h"
 
 #include <cstdlib>
 #include <limits>
 #include <string_view>
 
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <luxel/vulkan.h>
 
-#include "instance.h"
-#include "physical.h"
+#include "host/vulkan/instance.h"
+#include "host/vulkan/physical.h"
 
 namespace luxel::vulkan {
 

@@ -1,10 +1,10 @@
-#include "memory.h"
+#include "host/vulkan/memory.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 namespace {
@@ -86,24 +86,17 @@ DeviceMemory::DeviceMemory(const Context* owner, const Resource& resource, std::
 Result<std::shared_ptr<luxel::Memory>> DeviceMemory::make(const Context* owner,
                                                           const std::shared_ptr<Machine>& machine,
                                                           const Resource& resource, std::size_t bytes) {
-  std::size_t least = resource.bytes;
   if (resource.kind != ResourceKind::buffer) {
-    least = bytes_per_pixel(resource.format);
+    bytes = bytes_per_pixel(resource.format);
     for (const int size : resource.extent) {
       if (size < 1) {
         return Status(Code::invalid_argument, resource.name + " has an extent of " + std::to_string(size) +
                                                   "; expected at least 1 texel each way");
       }
-      least *= static_cast<std::size_t>(size);
+      bytes *= static_cast<std::size_t>(size);
     }
-    bytes = least;
-  } else if (bytes == 0) {
-    bytes = least;
-  }
-  if (bytes < least || bytes == 0) {
-    return Status(Code::invalid_argument, resource.name + " is asked for with " + std::to_string(bytes) +
-                                              " bytes; needs at least " +
-                                              std::to_string(std::max<std::size_t>(least, 1)));
+  } else {
+    bytes = std::max({bytes, resource.bytes, std::size_t{1}});
   }
   std::shared_ptr<DeviceMemory> memory(new DeviceMemory(owner, resource, bytes));
   memory->machine_ = machine;

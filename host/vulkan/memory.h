@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "host/context.h"
-#include "machine.h"
+#include "host/vulkan/machine.h"
 
 namespace luxel::vulkan {
 

@@ -1,9 +1,9 @@
-#include "physical.h"
+#include "host/vulkan/physical.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 

@@ -2,10 +2,10 @@
 
 #include "host/bindings.h"
 
-#include "kernel.h"
-#include "limits.h"
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/kernel.h"
+#include "host/vulkan/limits.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {

@@ -1,10 +1,10 @@
-#include "program.h"
+#include "host/vulkan/program.h"
 
 #include <algorithm>
 #include <chrono>
 
 #include "host/bindings.h"
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 
@@ -42,7 +42,6 @@ void DeviceProgram::destroy_recorded() {
 Result<std::vector<Binding>> DeviceProgram::check(const std::vector<Named>& resources) const {
   const Plan& plan = pipeline_.plan();
   std::vector<Binding> bindings;
-  bool own_scratch = plan.scratch_bytes > 0;
   for (const Named& named : resources) {
     if (!named.memory) return bad_binding(plan, named.name, "is null; expected memory of this device");
     if (named.memory->owner != owner) {
@@ -60,10 +59,9 @@ Result<std::vector<Binding>> DeviceProgram::check(const std::vector<Named>& reso
       };
       return bad_binding(plan, named.name, "is an image of " + text(made) + "; expected " + text(*known));
     }
-    own_scratch = own_scratch && named.name != "scratch";
     bindings.push_back(static_cast<const DeviceMemory&>(*named.memory).binding(named.name));
   }
-  if (own_scratch) {
+  if (plan.scratch_bytes > 0) {
     Binding& scratch = bindings.emplace_back();
     scratch.name = "scratch";
     scratch.buffer = scratch_.handle;
@@ -158,10 +156,9 @@ Status DeviceProgram::run(const std::vector<Named>& resources, int repeat, Times
   for (const Named& named : resources) {
     wanted.memories.emplace_back(named.name, static_cast<const DeviceMemory&>(*named.memory).id());
   }
-  const bool own_scratch = bindings.value().size() > resources.size();
   wanted.repeat = repeat;
   wanted.timed = times && machine_->timestamp_mask() != 0;
-  wanted.tables_current = own_scratch && tables_current_;
+  wanted.tables_current = tables_current_;
   if (!(wanted == recorded_)) {
     if (Status status = record(bindings.value(), wanted); !status) return status;
   }
@@ -169,7 +166,7 @@ Status DeviceProgram::run(const std::vector<Named>& resources, int repeat, Times
   const auto start = std::chrono::steady_clock::now();
   if (Status status = machine_->run(commands_.buffer); !status) return status;
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
-  if (own_scratch) tables_current_ = true;
+  tables_current_ = true;
   if (!times) return {};
   times->total = elapsed.count();
   times->passes.clear();

@@ -1,4 +1,4 @@
-// A plan compiled for the small layer: its pipeline, scratch and a command buffer that is recorded when bindings change.
+// A plan compiled for the small layer: its pipeline, scratch, and a command buffer recorded when bindings change.
 #pragma once
 #include <mutex>
 #include <string>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/context.h"
-#include "memory.h"
+#include "host/vulkan/memory.h"
 
 namespace luxel::vulkan {
 
@@ -43,7 +43,7 @@ class DeviceProgram final : public luxel::Program {
   std::shared_ptr<Machine> machine_;
   Pipeline pipeline_;
   Buffer scratch_;
-  bool tables_current_ = false;  // scratch_ holds the plan's tables
+  bool tables_current_ = false;  // scratch_ holds the plan's tables, from an earlier run
   Commands commands_;
   Recorded recorded_;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;  // this and the two below belong to what is recorded

@@ -1,7 +1,7 @@
 #include "host/bindings.h"
 
-#include "result.h"
-#include "state.h"
+#include "host/vulkan/result.h"
+#include "host/vulkan/state.h"
 
 namespace luxel::vulkan {
 namespace {
@@ -68,8 +68,7 @@ Status resolve(const Pipeline::State& state, const std::vector<Binding>& binding
   for (const auto& [first, second] : state.exclusive) {
     const std::size_t a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(second);
     if (resolved[a] && resolved[b] && overlap(*resolved[a], state.needs[a].bytes, *resolved[b], state.needs[b].bytes)) {
-      return bad_binding(plan, state.needs[a].name,
-                         "shares memory with " + state.needs[b].name + "; expected memory of its own");
+      return overlapping(plan, {first, second});
     }
   }
   return {};

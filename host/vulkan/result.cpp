@@ -1,4 +1,4 @@
-#include "result.h"
+#include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
 

@@ -6,8 +6,8 @@
 
 #include <luxel/vulkan.h>
 
-#include "kernel.h"
-#include "physical.h"
+#include "host/vulkan/kernel.h"
+#include "host/vulkan/physical.h"
 
 namespace luxel::vulkan {
 

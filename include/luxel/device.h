@@ -14,7 +14,7 @@ namespace luxel {
 enum class Api { opencl, vulkan, cpu };
 
 struct DeviceInfo {
-  int index = 0;        // as `luxel devices` counts
+  int index = 0;        // as `luxel devices` counts; in Context::info(): among the devices of its api
   Api api = Api::cpu;
   std::string name;     // as the driver reports it; cpu: "C++ float" and "C++ double"
   std::string driver;
@@ -63,7 +63,8 @@ class Context {
   virtual Result<std::shared_ptr<Program>> compile(const Plan& plan) = 0;
   /// Runs and waits. Scratch is made by the program, once.
   virtual Status run(Program& program, const std::vector<Named>& resources, Times* times = nullptr) = 0;
-  /// Runs `repeat` times back to back in one submission and waits; for timing short kernels.
+  /// Runs `repeat` times back to back in one submission and waits; for timing short kernels. `times` are those of all
+  /// the runs together.
   virtual Status run_many(Program& program, const std::vector<Named>& resources, int repeat, Times* times) = 0;
 
   /// Messages of the Vulkan validation layers since the last call (empty elsewhere). Layers are on when the environment
