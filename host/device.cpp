@@ -22,7 +22,7 @@ struct Backend {
   Result<std::shared_ptr<Context>> (*open)(int index);
 };
 
-std::vector<DeviceInfo> list_none(std::string* problem, const char* name, const char* option) {
+[[maybe_unused]] std::vector<DeviceInfo> list_none(std::string* problem, const char* name, const char* option) {
   if (problem) *problem = std::string(name) + ": not in this build; configure with -D" + option + "=ON";
   return {};
 }
@@ -105,7 +105,9 @@ Result<std::shared_ptr<Context>> Context::open(std::string_view which) {
     return found[index].backend->open(found[index].info.index);
   }
   const auto matches = [&](auto&& test) { return std::find_if(found.begin(), found.end(), test); };
-  auto chosen = matches([&](const Candidate& candidate) { return lower(candidate.info.id) == wanted; });
+  auto chosen = matches([&](const Candidate& candidate) {
+    return lower(candidate.info.id) == wanted || candidate.info.profile == wanted;
+  });
   if (chosen == found.end() && !wanted.empty()) {
     chosen = matches([&](const Candidate& candidate) {
       return lower(candidate.info.name).find(wanted) != std::string::npos;

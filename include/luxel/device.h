@@ -45,7 +45,8 @@ struct Named {
 
 class Context {
  public:
-  /// `which`: "opencl", "vulkan", "cpu", "cpu:double", an index, or part of a device's name (case ignored).
+  /// `which`: "opencl", "vulkan", "cpu", "cpu:double", an index, an id or a profile ("pocl", "lavapipe"), or part of a
+  /// device's name (case ignored); the first that fits.
   /// Errors: missing_driver with the devices that exist and what to install.
   static Result<std::shared_ptr<Context>> open(std::string_view which);
   virtual ~Context() = default;
