@@ -18,7 +18,7 @@ Result<Bytes> read_bytes(const std::string& path);
 Status failure(const std::string& file, const std::string& what, const std::string& remedy);
 
 /// The remedy for content that cannot have been written that way.
-constexpr const char* damaged = "the file is damaged: copy or export it again";
+constexpr const char* damaged = "copy or export the file again";
 
 Result<Image> decode_exr(std::span<const std::uint8_t> bytes, const std::string& file);
 Result<Image> decode_hdr(std::span<const std::uint8_t> bytes, const std::string& file);

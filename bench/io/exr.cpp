@@ -70,7 +70,7 @@ class MemoryOut final : public Imf::OStream {
 // must lie in the file, and the pixels must be what so many bytes can hold.
 class Walk {
  public:
-  Walk(std::span<const std::uint8_t> bytes, const std::string& file) : rest_(bytes), all_(bytes.size()), file_(file) {}
+  Walk(std::span<const std::uint8_t> bytes, const std::string& file) : rest_(bytes), all_(bytes), file_(file) {}
 
   Status check() {
     std::uint32_t magic = 0, version = 0;
@@ -78,12 +78,13 @@ class Walk {
     if (!number(version)) return truncated();
     if ((version & 255) != 2) return failure(file_, fmt::format("has OpenEXR version {}; expected 2", version & 255), damaged);
     const bool multipart = (version & 0x1000) != 0;
+    if ((version & 0x800) != 0 && !multipart) return failure(file_, "holds only deep data", "flatten it");
+    const bool tiled = (version & 0x200) != 0;
+    bool end = false;
     do {
-      bool end = false;
       if (Status s = header(end); !s) return s;
-      if (end) break;
-    } while (multipart);
-    return {};
+    } while (multipart && !end);
+    return plain_rows_ && !multipart && !tiled ? rows() : Status();
   }
 
  private:
@@ -115,7 +116,8 @@ class Walk {
   Status header(bool& end) {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};
     double pixel_bytes = 0, tile = 0;
-    bool first = true;
+    std::uint8_t compression = 0;
+    bool first = true, subsampled = false;
     while (true) {
       std::string_view name, type;
       std::int32_t size = 0;
@@ -125,6 +127,7 @@ class Walk {
       first = false;
       std::span<const std::uint8_t> data = rest_.first(std::size_t(size));
       rest_ = rest_.subspan(std::size_t(size));
+      if (name == "compression" && !take(data, compression)) return truncated();
       if (name == "dataWindow" && !take(data, window)) return truncated();
       if (name == "tiles") {
         std::array<std::uint32_t, 2> extent{};
@@ -136,24 +139,44 @@ class Walk {
         std::array<std::int32_t, 4> entry{};  // type, flags, sampling in x and y
         while (text(data, channel) && !channel.empty()) {
           if (!take(data, entry)) return truncated();
+          subsampled |= entry[2] != 1 || entry[3] != 1;
           pixel_bytes += entry[0] == 1 ? 2 : 4;
         }
       }
     }
     end = first;
     if (first) return {};
+    plain_rows_ = compression == 0 && !subsampled;
     const double width = double(window[2]) - window[0] + 1, height = double(window[3]) - window[1] + 1;
     if (!(width >= 1 && height >= 1 && width <= largest_side && height <= largest_side))
       return failure(file_, fmt::format("has a data window of {}x{} pixels; expected 1..{} each way", width, height, largest_side),
                      "crop the image");
-    if (std::max(width * height, tile) * pixel_bytes > small + most_expansion * double(all_))
+    if (std::max(width * height, tile) * pixel_bytes > small + most_expansion * double(all_.size()))
       return failure(file_, fmt::format("holds too few bytes for {}x{} pixels", width, height), damaged);
+    height_ = static_cast<std::size_t>(height);
+    row_bytes_ = width * pixel_bytes;
     return {};
   }
 
-  std::span<const std::uint8_t> rest_;
-  std::size_t all_;
+  // Uncompressed rows must have the length of a row: OpenEXR would take what is missing from memory it never wrote.
+  Status rows() {
+    for (std::size_t y = 0; y < height_; ++y) {
+      std::uint64_t offset = 0;
+      std::array<std::int32_t, 2> row{};  // y, bytes
+      if (!number(offset)) return truncated();
+      if (offset > all_.size()) offset = all_.size();
+      std::span<const std::uint8_t> at = all_.subspan(std::size_t(offset));
+      if (!take(at, row) || row[1] != row_bytes_ || double(at.size()) < row_bytes_)
+        return failure(file_, fmt::format("is damaged in row {} of {}", y, height_), damaged);
+    }
+    return {};
+  }
+
+  std::span<const std::uint8_t> rest_, all_;
   const std::string& file_;
+  bool plain_rows_ = false;  // of the last header
+  std::size_t height_ = 0;
+  double row_bytes_ = 0;
 };
 
 // Channels of a layer: name without the layer, and with it.

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "../../host/files.h"
+#include "host/files.h"
 #include "codecs.h"
 
 namespace luxel::io {

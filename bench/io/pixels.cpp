@@ -9,7 +9,7 @@ using uint = unsigned int;
 uint floatBitsToUint(float v) { uint u; std::memcpy(&u, &v, 4); return u; }
 float uintBitsToFloat(uint u) { float v; std::memcpy(&v, &u, 4); return v; }
 #define FN inline
-#include "../../kernels/math/packing.h"
+#include "kernels/math/packing.h"
 #undef FN
 
 template <class T, class Encode>

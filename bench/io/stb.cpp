@@ -1,5 +1,3 @@
-#include <cstdio>
-
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include "stb.h"

@@ -4,5 +4,4 @@
 #define STBI_NO_STDIO
 #define STBI_NO_FAILURE_STRINGS
 #include <stb/stb_image.h>
-#define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
