@@ -1,0 +1,15 @@
+// The commands of the program `luxel`. Each adds its subcommand to `app`; running it sets `exit_status`: 0 done,
+// 1 the run failed or a promise is broken, 2 wrong use (bad values and unreadable input included).
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace luxel::program {
+
+void add_devices(CLI::App& app, int& exit_status);
+void add_list(CLI::App& app, int& exit_status);
+void add_gaussian_blur(CLI::App& app, int& exit_status);
+void add_mip_build(CLI::App& app, int& exit_status);
+void add_bench(CLI::App& app, int& exit_status);
+void add_report(CLI::App& app, int& exit_status);
+
+}  // namespace luxel::program

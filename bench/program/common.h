@@ -1,0 +1,56 @@
+// What the commands share: errors, devices, and options that take their ranges and defaults from the catalog.
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <luxel/device.h>
+
+#include "bench/io/image.h"
+#include "catalog.h"
+
+namespace luxel::program {
+
+constexpr int done = 0;
+constexpr int failed = 1;
+constexpr int misused = 2;
+
+/// `text` as one line: line breaks and other control characters become single spaces.
+std::string one_line(std::string_view text);
+
+/// Prints "luxel: message" as one line on stderr and returns `exit_status`.
+int complain(std::string_view message, int exit_status);
+
+/// The same for a Status: misused for invalid_argument, missing_driver and, where `input`, io; else failed.
+int complain(const Status& status, bool input = false);
+
+/// The candidate with the fewest edits from `word`; empty where none is near.
+std::string closest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// `--device`. Empty: the first of opencl, vulkan and cpu that works.
+void add_device_option(CLI::App& command, std::string& device);
+Result<std::shared_ptr<Context>> open_device(const std::string& device);
+
+/// Options of a kernel's catalog entry, with help, range and default. The names must be in the entry.
+CLI::Option* add_variant(CLI::App& command, const Kernel& kernel, std::string& value);
+CLI::Option* add_choice(CLI::App& command, const Kernel& kernel, std::string_view name, std::string& value);
+CLI::Option* add_switch(CLI::App& command, const Kernel& kernel, std::string_view name, bool& value);
+CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_view name, double& value);
+CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_view name, int& value);
+
+/// "0..4095", "clamp|mirror|wrap|zero" or "off|on".
+std::string range_text(const Knob& knob);
+std::string range_text(const Option& option);
+
+/// Storage format of `--format` for a number of channels in a file.
+Format storage_format(const std::string& format, int channels);
+
+/// The time of a run for a results line: by the device's clock where it has one, else as the host saw it.
+std::string time_text(const Times& times);
+
+/// What writing a file changed, for a results line; empty where nothing was.
+std::string changes_text(const io::WriteReport& report);
+
+}  // namespace luxel::program

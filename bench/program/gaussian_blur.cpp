@@ -1,0 +1,101 @@
+#include <memory>
+
+#include <fmt/format.h>
+#include <luxel/gaussian_blur.h>
+
+#include "bench/io/image.h"
+#include "bench/io/pixels.h"
+#include "commands.h"
+#include "common.h"
+
+namespace luxel::program {
+namespace {
+
+struct Arguments {
+  std::string in, out, device, variant, border, format, input;
+  double sigma = 0;
+  int radius = -1;
+  bool difference = false, keep_alpha = false, drop_taps = false;
+};
+
+GaussianBlurParams parameters(const Arguments& a, const io::Image& image) {
+  GaussianBlurParams p;
+  p.width = image.width;
+  p.height = image.height;
+  p.sigma = a.sigma;
+  p.radius = a.radius;
+  p.border = a.border == "clamp" ? Border::clamp : a.border == "mirror" ? Border::mirror
+             : a.border == "wrap" ? Border::wrap : Border::zero;
+  p.variant = a.variant == "separable" ? GaussianVariant::separable
+              : a.variant == "direct" ? GaussianVariant::direct : GaussianVariant::sampler;
+  p.format = storage_format(a.format, image.channels);
+  p.input = a.input == "image" || p.variant == GaussianVariant::sampler ? Input::image : Input::buffer;
+  p.difference = a.difference;
+  p.keep_alpha = a.keep_alpha;
+  p.drop_taps = a.drop_taps;
+  return p;
+}
+
+int run(const Arguments& a) {
+  if (Status s = io::check_image_path(a.out); !s) return complain(s);
+  Result<io::Image> read = io::read_image(a.in);
+  if (!read) return complain(read.status(), true);
+  io::Image& image = read.value();
+  const GaussianBlurParams p = parameters(a, image);
+  if (Status s = validate(p); !s) return complain(s);
+
+  const auto opened = open_device(a.device);
+  if (!opened) return complain(opened.status());
+  Context& context = *opened.value();
+  const Result<Plan> plan = luxel::plan(p, context.profile());
+  if (!plan) return complain(plan.status());
+  const auto program = context.compile(plan.value());
+  if (!program) return complain(program.status().message(), failed);
+
+  std::vector<std::uint8_t> pixels = io::pack(image.pixels, image.channels, p.format, context.real64());
+  std::vector<Named> bound;
+  for (const Resource& resource : plan.value().resources) {
+    auto memory = context.make(resource, resource.kind == ResourceKind::buffer ? pixels.size() : 0);
+    if (!memory) return complain(memory.status().message(), failed);
+    bound.push_back({resource.name, std::move(memory).value()});
+    if (resource.written) continue;
+    if (Status s = context.upload(*bound.back().memory, pixels.data(), pixels.size()); !s) return complain(s.message(), failed);
+  }
+  Times times;
+  if (Status s = context.run(*program.value(), bound, &times); !s) return complain(s.message(), failed);
+  for (std::size_t i = 0; i < bound.size(); ++i)
+    if (plan.value().resources[i].written)
+      if (Status s = context.download(*bound[i].memory, pixels.data(), pixels.size()); !s) return complain(s.message(), failed);
+
+  image.pixels = io::unpack(pixels, p.format, context.real64(), image.channels);
+  io::WriteReport changes;
+  if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
+  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, radius {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,
+             p.height, p.sigma, effective_radius(p), a.border, context.info().id, time_text(times), a.out, changes_text(changes));
+  return done;
+}
+
+}  // namespace
+
+void add_gaussian_blur(CLI::App& app, int& exit_status) {
+  const Kernel& k = kernel("gaussian_blur");
+  CLI::App* command = app.add_subcommand("gaussian_blur", "blur an image file");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("--in", a->in, "image to blur: .exr, .hdr, .png or .npy ([y][x] or [y][x][c], 1..4 channels)")
+      ->required()->type_name("FILE");
+  command->add_option("-o,--out", a->out, "blurred image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
+      ->required()->type_name("FILE");
+  add_number(*command, k, "--sigma", a->sigma);
+  add_number(*command, k, "--radius", a->radius);
+  add_variant(*command, k, a->variant);
+  for (const auto& [name, value] : {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
+    add_choice(*command, k, name, *value);
+  for (const auto& [name, value] : {std::pair{"--difference", &a->difference}, {"--keep-alpha", &a->keep_alpha},
+                                    {"--drop-taps", &a->drop_taps}})
+    add_switch(*command, k, name, *value);
+  add_device_option(*command, a->device);
+  command->footer("Images pass without colour conversion. Sigma above 1365 needs --radius.");
+  command->callback([a, &exit_status] { exit_status = run(*a); });
+}
+
+}  // namespace luxel::program
