@@ -14,6 +14,11 @@ T memory_value(cl_mem memory, cl_mem_info what) {
 
 std::string bytes_text(std::size_t bytes) { return std::to_string(bytes) + " bytes"; }
 
+template <class T>
+std::string extent_text(const std::array<T, 3>& extent) {
+  return std::to_string(extent[0]) + "x" + std::to_string(extent[1]) + "x" + std::to_string(extent[2]);
+}
+
 struct Checker {
   const Shared& shared;
   const Binding& binding;
@@ -60,15 +65,12 @@ struct Checker {
     std::array<std::size_t, 3> extent{1, 1, 1};
     const cl_image_info axes[] = {CL_IMAGE_WIDTH, CL_IMAGE_HEIGHT, CL_IMAGE_DEPTH};
     const std::size_t dimensions = type == CL_MEM_OBJECT_IMAGE3D ? 3 : 2;
-    std::string have, need;
     bool equal = dimensions == 3 || resource.extent[2] == 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (axis < dimensions) clGetImageInfo(binding.memory, axes[axis], sizeof extent[axis], &extent[axis], nullptr);
       equal = equal && extent[axis] == static_cast<std::size_t>(resource.extent[axis]);
-      have += (axis ? "x" : "") + std::to_string(extent[axis]);
-      need += (axis ? "x" : "") + std::to_string(resource.extent[axis]);
     }
-    if (!equal) return bad("has " + have + " texels; expected " + need);
+    if (!equal) return bad("has " + extent_text(extent) + " texels; expected " + extent_text(resource.extent));
     cl_image_format format{};
     clGetImageInfo(binding.memory, CL_IMAGE_FORMAT, sizeof format, &format, nullptr);
     const cl_image_format wanted = image_format(resource.format);

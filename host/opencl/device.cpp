@@ -70,7 +70,8 @@ Result<Device> Device::adopt(const Adopt& info) {
   state->limits = limits_of(info.device);
   state->profile = luxel::profile(profile_of(info.device));
 
-  state->base_options = "-cl-std=CL1.2";
+  // -w: some drivers print their compiler's warnings on stderr, where only the caller may.
+  state->base_options = "-cl-std=CL1.2 -w";
   const auto single = value<cl_device_fp_config>(info.device, CL_DEVICE_SINGLE_FP_CONFIG);
   if (single & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT) state->base_options += " -cl-fp32-correctly-rounded-divide-sqrt";
 
