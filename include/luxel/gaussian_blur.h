@@ -18,9 +18,6 @@ enum class GaussianVariant {
   sampler     // separable, two texels per tap through the linear sampler; clamp and wrap only; src is an image
 };
 
-/// How `src` is bound.
-enum class Input { buffer, image };
-
 struct GaussianBlurParams {
   int width = 0;              // pixels, 1..65535
   int height = 0;             // pixels, 1..65535

@@ -48,6 +48,9 @@ enum class ResourceKind {
   storage_image   // image that is written; a later pass may sample it
 };
 
+/// How the caller binds the input of a kernel that takes either.
+enum class Input { buffer, image };
+
 /// How coordinates outside a sampled image are addressed.
 enum class Address { clamp, wrap };
 
