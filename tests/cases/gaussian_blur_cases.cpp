@@ -1,0 +1,60 @@
+#include "tests/cases/gaussian_blur_cases.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/cases/gaussian_blur_support.h"
+#include "tests/cases/run.h"
+
+namespace luxel::cases {
+
+const char* name(Border border) {
+  static const char* const names[] = {"clamp", "mirror", "wrap", "zero"};
+  return names[static_cast<int>(border)];
+}
+
+const char* name(GaussianVariant variant) {
+  static const char* const names[] = {"separable", "direct", "sampler"};
+  return names[static_cast<int>(variant)];
+}
+
+GaussianBlurParams blur_params(int width, int height, double sigma, int radius, Format format, Border border,
+                               GaussianVariant variant) {
+  GaussianBlurParams p;
+  p.width = width;
+  p.height = height;
+  p.sigma = sigma;
+  p.radius = radius;
+  p.format = format;
+  p.border = border;
+  p.variant = variant;
+  if (variant == GaussianVariant::sampler) p.input = Input::image;
+  return p;
+}
+
+Result<Values> blur(Context& context, const GaussianBlurParams& params, std::span<const double> src) {
+  Result<Run> made = Run::make(context, plan(params, context.profile()));
+  if (!made) return made.status();
+  Run& run = made.value();
+  if (Status status = run.write("src", src); !status) return status;
+  const double unwritten = params.format == Format::unorm8x4 ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+  const int stride = params.dst_stride > 0 ? params.dst_stride : params.width;
+  const std::size_t pixels = static_cast<std::size_t>(params.height - 1) * stride + params.width;
+  if (Status status = run.write("dst", Values(pixels * channels(params.format), unwritten)); !status) return status;
+  if (Status status = run.go(); !status) return status;
+  return run.read("dst");
+}
+
+double rounding_bound(int radius) { return 2 * ((radius + 2) + 0.5 + 0.5 * (radius + 1)) * std::ldexp(1.0, -24); }
+
+std::vector<Case> gaussian_blur_cases() {
+  std::vector<Case> cases;
+  add_sigma_cases(cases);
+  add_value_cases(cases);
+  add_storage_cases(cases);
+  add_equality_cases(cases);
+  for (Case& c : cases) c.kernel = "gaussian_blur";
+  return cases;
+}
+
+}  // namespace luxel::cases
