@@ -61,10 +61,8 @@ TEST_F(OpenClQueue, PassesRunInOrderOnAnOutOfOrderQueue) {
 }
 
 TEST_F(OpenClQueue, WaitsForTheCallersEventsAndReportsItsOwn) {
-  for (const cl_command_queue_properties properties : {CL_QUEUE_PROFILING_ENABLE,
-                                                       CL_QUEUE_PROFILING_ENABLE | CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}) {
-    const OwnedQueue queue = machine.queue(static_cast<cl_command_queue_properties>(properties)),
-                     reader = machine.queue();
+  for (const cl_command_queue_properties order : {0, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE}) {
+    const OwnedQueue queue = machine.queue(order | CL_QUEUE_PROFILING_ENABLE), reader = machine.queue();
     const Pipeline chain = pipeline(tiny_plan(module, 100, 3));
     const std::size_t scratch_bytes = chain.plan().scratch_bytes;
     const OwnedMemory src = machine.buffer(400), dst = machine.buffer(400), scratch = machine.buffer(scratch_bytes);
@@ -81,7 +79,7 @@ TEST_F(OpenClQueue, WaitsForTheCallersEventsAndReportsItsOwn) {
     clSetUserEventStatus(first.get(), CL_COMPLETE);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     EXPECT_GT(state(done), CL_COMPLETE);
-    EXPECT_EQ(read<float>(reader.get(), dst, 100), std::vector<float>(100, -1.0f)) << "ran before its wait list was done";
+    EXPECT_EQ(read<float>(reader.get(), dst, 100), std::vector<float>(100, -1.0f)) << "ran before it was let";
     clSetUserEventStatus(second.get(), CL_COMPLETE);
     ASSERT_EQ(clWaitForEvents(1, &done), CL_SUCCESS);
     EXPECT_EQ(read<float>(reader.get(), dst, 100), tiny_result(counting(100), 3));
@@ -112,7 +110,8 @@ TEST_F(OpenClQueue, EmptyPlanStillSignalsAfterItsWaitList) {
   const OwnedEvent before = gate();
   const cl_event wait = before.get();
   cl_event done = nullptr;
-  ASSERT_TRUE(nothing.enqueue(queue.get(), {{"src", src.get(), 0, 400}, {"dst", dst.get(), 0, 400}}, {&wait, 1, &done}).ok());
+  ASSERT_TRUE(nothing.enqueue(queue.get(), {{"src", src.get(), 0, 400}, {"dst", dst.get(), 0, 400}}, {&wait, 1, &done})
+                  .ok());
   clFlush(queue.get());
   EXPECT_GT(state(done), CL_COMPLETE);
   clSetUserEventStatus(wait, CL_COMPLETE);
@@ -141,7 +140,8 @@ TEST_F(OpenClQueue, TablesOutliveThePipelineUntilTheyAreWritten) {
     ASSERT_TRUE(blur.enqueue(queue.get(), {{"src", src.get(), 0, bytes}, {"dst", dst.get(), 0, bytes},
                                            {"scratch", scratch.get(), 0, scratch_bytes}}, {&wait, 1}).ok());
   }
-  std::vector<std::vector<float>> reuse(64, std::vector<float>(16, 1e30f));  // where the tables were, had they been freed
+  // Where the tables were, had they been freed.
+  const std::vector<std::vector<float>> reuse(64, std::vector<float>(16, 1e30f));
   clSetUserEventStatus(wait, CL_COMPLETE);
   EXPECT_EQ(read<float>(queue.get(), dst, expected.size()), expected);
 }
@@ -224,8 +224,8 @@ TEST_F(OpenClQueue, RefusalHalfWayIsSaid) {
                                                      {"scratch", scratch.get(), 0, scratch_bytes}},
                                        {nullptr, 0, &done, &passes});
   EXPECT_EQ(status.message(),
-            "tiny: pass 2 of 3 (step 1) was not enqueued, the passes before it are enqueued, so wait for the queue and take "
-            "the outputs as undefined: CL_INVALID_WORK_GROUP_SIZE");
+            "tiny: pass 2 of 3 (step 1) was not enqueued, the passes before it are enqueued, so wait for the queue and "
+            "take the outputs as undefined: CL_INVALID_WORK_GROUP_SIZE");
   EXPECT_EQ(status.code(), Code::internal);
   EXPECT_EQ(done, nullptr);
   EXPECT_TRUE(passes.empty());

@@ -13,15 +13,12 @@ namespace {
 constexpr int width = 37, height = 19;
 constexpr std::size_t image_bytes = std::size_t{width} * height * 16;
 
-Plan blur_plan(const Profile& profile, Input input = Input::buffer, GaussianVariant variant = GaussianVariant::separable,
-               Format format = Format::f32x4) {
+Plan blur_plan(const Profile& profile, Input input = Input::buffer) {
   GaussianBlurParams params;
   params.width = width;
   params.height = height;
   params.sigma = 2.0;
   params.input = input;
-  params.variant = variant;
-  params.format = format;
   Result<Plan> result = plan(params, profile);
   EXPECT_TRUE(result.ok()) << result.status().message();
   return std::move(result).value();
@@ -29,7 +26,8 @@ Plan blur_plan(const Profile& profile, Input input = Input::buffer, GaussianVari
 
 std::vector<float> picture() {
   std::vector<float> pixels(image_bytes / 4);
-  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<float>((i * 2654435761u >> 8) % 4096) / 4096.0f;
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    pixels[i] = static_cast<float>((i * 2654435761u >> 8) % 4096) / 4096.0f;
   return pixels;
 }
 

@@ -19,15 +19,14 @@ bool exceeds(const std::array<int, 3>& extent, const std::array<std::size_t, n>&
   return false;
 }
 
-bool format_supported(const Device::State& device, const Resource& resource, bool volume) {
-  const cl_mem_flags flags = resource.kind == ResourceKind::storage_image ? CL_MEM_WRITE_ONLY : CL_MEM_READ_ONLY;
+bool format_supported(const Device::State& device, Format needed, bool volume, cl_mem_flags flags) {
   const cl_mem_object_type type = volume ? CL_MEM_OBJECT_IMAGE3D : CL_MEM_OBJECT_IMAGE2D;
   cl_uint count = 0;
   if (clGetSupportedImageFormats(device.context.get(), flags, type, 0, nullptr, &count) != CL_SUCCESS) return false;
   std::vector<cl_image_format> formats(count);
   if (clGetSupportedImageFormats(device.context.get(), flags, type, count, formats.data(), nullptr) != CL_SUCCESS)
     return false;
-  const cl_image_format wanted = image_format(resource.format);
+  const cl_image_format wanted = image_format(needed);
   return std::any_of(formats.begin(), formats.end(), [&](const cl_image_format& format) {
     return format.image_channel_order == wanted.image_channel_order &&
            format.image_channel_data_type == wanted.image_channel_data_type;
@@ -56,6 +55,7 @@ Status check_limits(const Device::State& device, const Plan& plan) {
   };
   const auto bytes = [](auto count) { return std::to_string(count) + " bytes"; };
 
+  const std::vector<Use> use = uses(plan);
   for (std::size_t i = 0; i < plan.resources.size(); ++i) {
     const Resource& resource = plan.resources[i];
     if (resource.kind == ResourceKind::buffer) {
@@ -76,7 +76,8 @@ Status check_limits(const Device::State& device, const Plan& plan) {
       return small(resource.name, "CL_DEVICE_IMAGE2D_MAX_WIDTH and _HEIGHT", extent_text(most, 2),
                    extent_text(resource.extent, 2) + " texels");
     }
-    if (!format_supported(device, resource, volume))
+    if ((use[i].read && !format_supported(device, resource.format, volume, CL_MEM_READ_ONLY)) ||
+        (use[i].first_write >= 0 && !format_supported(device, resource.format, volume, CL_MEM_WRITE_ONLY)))
       return Status(Code::unsupported, plan.kernel + ": " + device.name + " has no " + (volume ? "3-D" : "2-D") +
                                            " images of " + name(resource.format) + ", which " + resource.name +
                                            " needs; bind a buffer or take another format");

@@ -29,8 +29,12 @@ Result<std::vector<std::uint32_t>> parameter_words(const Plan& plan, const Pass&
 }
 
 bool samples(const Plan& plan, Address address) {
-  for (const Resource& resource : plan.resources) {
-    if (resource.kind == ResourceKind::sampled_image && resource.address == address) return true;
+  for (const Pass& pass : plan.passes) {
+    for (std::size_t i = 0; i < pass.slots.size(); ++i) {
+      if (is_sampled(pass.module->bindings[i].kind) &&
+          plan.resources[static_cast<std::size_t>(pass.slots[i].index)].address == address)
+        return true;
+    }
   }
   return false;
 }
