@@ -1,4 +1,4 @@
-// What the Contexts of the three executions share: the bases of their memory and programs.
+// What the Contexts of the three executions share: the bases of their memory and programs, and what they refuse.
 #pragma once
 #include <cstddef>
 
@@ -28,5 +28,10 @@ class Program {
 
   const Context* const owner;
 };
+
+/// What a run of any Context refuses: memory that is missing, of another device, or of another kind, extent or format
+/// than the plan's resource, and names that are missing, unknown or given twice (`scratch` may be left out). Whether
+/// buffers are large enough is the execution's to check.
+Status check_memories(const Context* owner, const Plan& plan, const std::vector<Named>& resources);
 
 }  // namespace luxel

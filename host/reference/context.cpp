@@ -118,11 +118,10 @@ Status CppContext::run_many(Program& program, const std::vector<Named>& resource
   if (repeat < 1)
     return Status(Code::invalid_argument,
                   plan.kernel + ": repeat is " + std::to_string(repeat) + "; expected at least 1");
+  if (Status status = check_memories(this, plan, resources); !status) return status;
   std::vector<Binding> bindings;
   bool own_scratch = checked.scratch != nullptr;
   for (const Named& named : resources) {
-    if (!named.memory) return bad_binding(plan, named.name, "has no memory");
-    if (named.memory->owner != this) return bad_binding(plan, named.name, "belongs to another device");
     own_scratch = own_scratch && named.name != "scratch";
     bindings.push_back({named.name, static_cast<HeapMemory&>(*named.memory).data.get(), named.memory->bytes});
   }

@@ -1,9 +1,7 @@
 #include "host/vulkan/program.h"
 
-#include <algorithm>
 #include <chrono>
 
-#include "host/bindings.h"
 #include "host/vulkan/result.h"
 
 namespace luxel::vulkan {
@@ -39,33 +37,16 @@ void DeviceProgram::destroy_recorded() {
   views_.clear();
 }
 
-Result<std::vector<Binding>> DeviceProgram::check(const std::vector<Named>& resources) const {
-  const Plan& plan = pipeline_.plan();
+std::vector<Binding> DeviceProgram::bind(const std::vector<Named>& resources) const {
   std::vector<Binding> bindings;
   for (const Named& named : resources) {
-    if (!named.memory) return bad_binding(plan, named.name, "is null; expected memory of this device");
-    if (named.memory->owner != owner) {
-      return bad_binding(plan, named.name, "belongs to another device; expected memory of this one");
-    }
-    const Resource& made = named.memory->resource;
-    const auto known = std::find_if(plan.resources.begin(), plan.resources.end(),
-                                    [&](const Resource& resource) { return resource.name == named.name; });
-    if (known != plan.resources.end() && known->kind != ResourceKind::buffer && made.kind != ResourceKind::buffer &&
-        (known->extent != made.extent || known->format != made.format)) {
-      const auto text = [](const Resource& resource) {
-        std::string size;
-        for (const int side : resource.extent) size += (size.empty() ? "" : "x") + std::to_string(side);
-        return size + " " + luxel::name(resource.format);
-      };
-      return bad_binding(plan, named.name, "is an image of " + text(made) + "; expected " + text(*known));
-    }
     bindings.push_back(static_cast<const DeviceMemory&>(*named.memory).binding(named.name));
   }
-  if (plan.scratch_bytes > 0) {
+  if (scratch_.handle != VK_NULL_HANDLE) {
     Binding& scratch = bindings.emplace_back();
     scratch.name = "scratch";
     scratch.buffer = scratch_.handle;
-    scratch.bytes = plan.scratch_bytes;
+    scratch.bytes = pipeline_.plan().scratch_bytes;
   }
   return bindings;
 }
@@ -150,8 +131,7 @@ Status DeviceProgram::run(const std::vector<Named>& resources, int repeat, Times
     return {Code::invalid_argument,
             pipeline_.plan().kernel + ": repeat is " + std::to_string(repeat) + "; expected at least 1"};
   }
-  const Result<std::vector<Binding>> bindings = check(resources);
-  if (!bindings) return bindings.status();
+  if (Status status = check_memories(owner, pipeline_.plan(), resources); !status) return status;
   Recorded wanted;
   for (const Named& named : resources) {
     wanted.memories.emplace_back(named.name, static_cast<const DeviceMemory&>(*named.memory).id());
@@ -160,7 +140,7 @@ Status DeviceProgram::run(const std::vector<Named>& resources, int repeat, Times
   wanted.timed = times && machine_->timestamp_mask() != 0;
   wanted.tables_current = tables_current_;
   if (!(wanted == recorded_)) {
-    if (Status status = record(bindings.value(), wanted); !status) return status;
+    if (Status status = record(bind(resources), wanted); !status) return status;
   }
 
   const auto start = std::chrono::steady_clock::now();

@@ -32,7 +32,7 @@ class DeviceProgram final : public luxel::Program {
   };
 
   DeviceProgram(const Context* owner, const std::shared_ptr<Machine>& machine, Pipeline pipeline);
-  Result<std::vector<Binding>> check(const std::vector<Named>& resources) const;
+  std::vector<Binding> bind(const std::vector<Named>& resources) const;
   Status record(const std::vector<Binding>& bindings, const Recorded& wanted);
   Status make_pools(int repeat, bool timed);
   Status read_times(int repeat, Times& times) const;

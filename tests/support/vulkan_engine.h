@@ -83,6 +83,30 @@ struct Engine {
 
 constexpr std::size_t margin = 512;  // guarded bytes before and behind every binding; a multiple of every alignment
 
+/// What one record needs besides bindings: a pool of sets where they are not pushed, and a place for views.
+struct Options {
+  Options(const Engine& engine, const Pipeline& pipeline) : device(engine.machine->device()) {
+    record.texel_views = &views;
+    if (pipeline.pool_sizes().empty()) return;
+    VkDescriptorPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    info.maxSets = static_cast<std::uint32_t>(pipeline.plan().passes.size());
+    info.poolSizeCount = static_cast<std::uint32_t>(pipeline.pool_sizes().size());
+    info.pPoolSizes = pipeline.pool_sizes().data();
+    EXPECT_EQ(vkCreateDescriptorPool(device, &info, nullptr, &record.pool), VK_SUCCESS);
+  }
+  ~Options() {
+    vkDestroyDescriptorPool(device, record.pool, nullptr);
+    for (VkBufferView view : views) vkDestroyBufferView(device, view, nullptr);
+  }
+  Options(const Options&) = delete;
+  Options& operator=(const Options&) = delete;
+
+  VkDevice device;
+  std::vector<VkBufferView> views;
+  Record record;
+};
+
 /// A plan with all that one record of it binds, every buffer between two margins.
 class Bound {
  public:
@@ -103,32 +127,13 @@ class Bound {
     return *std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
   }
 
-  /// Records with a pool, queries and views of its own, submits and waits.
-  Status run(const Pipeline& pipeline) {
+  /// Records with options of its own, submits and waits.
+  Status run(const Pipeline& pipeline) const {
+    Options options(engine_, pipeline);
     Status status;
-    std::vector<VkBufferView> views;
-    VkDescriptorPool pool = make_pool(pipeline);
-    const Status ran = engine_.machine->once([&](VkCommandBuffer commands) {
-      Record options;
-      options.pool = pool;
-      options.texel_views = &views;
-      status = pipeline.record(commands, bindings, options);
-    });
-    vkDestroyDescriptorPool(engine_.machine->device(), pool, nullptr);
-    for (VkBufferView view : views) vkDestroyBufferView(engine_.machine->device(), view, nullptr);
+    const Status ran = engine_.machine->once(
+        [&](VkCommandBuffer commands) { status = pipeline.record(commands, bindings, options.record); });
     return status ? ran : status;
-  }
-
-  VkDescriptorPool make_pool(const Pipeline& pipeline) const {
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    if (pipeline.pool_sizes().empty()) return pool;
-    VkDescriptorPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
-    info.maxSets = static_cast<std::uint32_t>(pipeline.plan().passes.size());
-    info.poolSizeCount = static_cast<std::uint32_t>(pipeline.pool_sizes().size());
-    info.pPoolSizes = pipeline.pool_sizes().data();
-    EXPECT_EQ(vkCreateDescriptorPool(engine_.machine->device(), &info, nullptr, &pool), VK_SUCCESS);
-    return pool;
   }
 
   /// The bytes of a buffer. Fails the test where a margin of any buffer changed.

@@ -1,0 +1,42 @@
+#include "host/context.h"
+
+#include "host/bindings.h"
+
+namespace luxel {
+namespace {
+
+std::string texels_of(const Resource& resource) {
+  std::string text;
+  for (const int side : resource.extent) text += (text.empty() ? "" : "x") + std::to_string(side);
+  return text + " " + name(resource.format);
+}
+
+}  // namespace
+
+Status check_memories(const Context* owner, const Plan& plan, const std::vector<Named>& resources) {
+  std::vector<std::string_view> names;
+  bool scratch = false;
+  for (const Named& named : resources) {
+    if (!named.memory) return bad_binding(plan, named.name, "has no memory");
+    if (named.memory->owner != owner) return bad_binding(plan, named.name, "belongs to another device");
+    names.push_back(named.name);
+    scratch = scratch || named.name == "scratch";
+  }
+  if (!scratch) names.push_back("scratch");
+  const Result<std::vector<int>> matched = match(plan, names);
+  if (!matched) return matched.status();
+  for (std::size_t i = 0; i < plan.resources.size(); ++i) {
+    const Resource& wanted = plan.resources[i];
+    const Resource& made = resources[static_cast<std::size_t>(matched.value()[i])].memory->resource;
+    const bool buffer = wanted.kind == ResourceKind::buffer;
+    if (buffer != (made.kind == ResourceKind::buffer)) {
+      return bad_binding(plan, wanted.name, buffer ? "is an image; expected a buffer" : "is a buffer; expected an image");
+    }
+    if (!buffer && (wanted.extent != made.extent || wanted.format != made.format)) {
+      return bad_binding(plan, wanted.name, "is an image of " + texels_of(made) + "; expected " + texels_of(wanted));
+    }
+  }
+  return {};
+}
+
+}  // namespace luxel
