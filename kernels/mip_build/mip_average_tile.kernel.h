@@ -1,0 +1,90 @@
+// Three coarser levels of the isotropic pyramid in one dispatch: each workgroup keeps its part of a level for the next. The
+// same bits as mip_average, level by level.
+
+FN ivec3 halved(ivec3 e) { return ivec3((e.x + 1) >> 1, (e.y + 1) >> 1, (e.z + 1) >> 1); }
+FN bool within(ivec3 p, ivec3 e) { return p.x < e.x && p.y < e.y && p.z < e.z; }
+
+FN pixel fine(CTX, int x, int y, int z) {
+#if BY_ROWS
+    pixel v = load_pixel(src, params.src_x, x, z * params.src_y + y);
+#else
+    pixel v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
+#endif
+#if CHANNELS == 4
+    if (CLEAN != 0) v = drop_hidden_colour(v);
+#endif
+    return v;
+}
+
+FN pixel as_stored(CTX, pixel v) {
+#if ROUNDED == 0
+    return v;
+#else
+    const bool exact = in_double(float(params.src_x));
+    return vec4(STORED(v.x, exact), STORED(v.y, exact), STORED(v.z, exact), STORED(v.w, exact));
+#endif
+}
+
+FN pixel plane_of_source(CTX, ivec3 a, ivec3 b, int z) {
+    return mip_pair(mip_pair(fine(ctx, a.x, a.y, z), fine(ctx, b.x, a.y, z)), mip_pair(fine(ctx, a.x, b.y, z), fine(ctx, b.x, b.y, z)));
+}
+
+FN pixel plane_of_tile(CTX, ivec3 a, ivec3 b, int z) {
+    return mip_pair(mip_pair(load(tile, (z * TILE_Y + a.y) * TILE_X + a.x), load(tile, (z * TILE_Y + a.y) * TILE_X + b.x)),
+                    mip_pair(load(tile, (z * TILE_Y + b.y) * TILE_X + a.x), load(tile, (z * TILE_Y + b.y) * TILE_X + b.x)));
+}
+
+FN pixel plane_of_small(CTX, ivec3 a, ivec3 b, int z) {
+    const int w = TILE_X / 2;
+    const int h = TILE_Y / 2;
+    return mip_pair(mip_pair(load(small, (z * h + a.y) * w + a.x), load(small, (z * h + a.y) * w + b.x)),
+                    mip_pair(load(small, (z * h + b.y) * w + a.x), load(small, (z * h + b.y) * w + b.x)));
+}
+
+// The first and the second of the pair of each axis that texel p covers, in a level of this extent; along an axis of extent 1
+// they are one.
+FN ivec3 first_of(ivec3 p, ivec3 extent) { return min(2 * p, extent - 1); }
+FN ivec3 second_of(ivec3 p, ivec3 extent) { return min(2 * p + 1, extent - 1); }
+
+KERNEL(mip_average_tile) {
+    const ivec3 extent = ivec3(params.src_x, params.src_y, params.src_z);
+    const ivec3 extent_a = halved(extent);
+    const ivec3 extent_b = halved(extent_a);
+    const ivec3 extent_c = halved(extent_b);
+    const ivec3 lane = ivec3(local_x(), local_y(), local_z());
+    const ivec3 group = ivec3(group_x(), group_y(), group_z());
+    const ivec3 size = ivec3(TILE_X, TILE_Y, TILE_Z);
+    FIRST {
+        const ivec3 p = group * size + lane;
+        const ivec3 a = first_of(p, extent);
+        const ivec3 b = second_of(p, extent);
+        pixel v = plane_of_source(ctx, a, b, a.z);
+        if (TILE_Z > 1) v = mip_pair(v, plane_of_source(ctx, a, b, b.z));
+        if (within(p, extent_a)) store_voxel(dst_a, extent_a, p, v);
+        store(tile, (lane.z * TILE_Y + lane.y) * TILE_X + lane.x, as_stored(ctx, v));
+    }
+    THEN {
+        const ivec3 half_size = halved(size);
+        if (within(lane, half_size)) {
+            const ivec3 p = group * half_size + lane;
+            const ivec3 a = first_of(p, extent_a) - group * size;
+            const ivec3 b = second_of(p, extent_a) - group * size;
+            pixel v = plane_of_tile(ctx, a, b, a.z);
+            if (TILE_Z > 1) v = mip_pair(v, plane_of_tile(ctx, a, b, b.z));
+            if (within(p, extent_b)) store_voxel(dst_b, extent_b, p, v);
+            store(small, (lane.z * half_size.y + lane.y) * half_size.x + lane.x, as_stored(ctx, v));
+        }
+    }
+    THEN {
+        const ivec3 half_size = halved(size);
+        const ivec3 quarter = halved(half_size);
+        const ivec3 p = group * quarter + lane;
+        if (within(lane, quarter) && within(p, extent_c)) {
+            const ivec3 a = first_of(p, extent_b) - group * half_size;
+            const ivec3 b = second_of(p, extent_b) - group * half_size;
+            pixel v = plane_of_small(ctx, a, b, a.z);
+            if (TILE_Z > 1) v = mip_pair(v, plane_of_small(ctx, a, b, b.z));
+            store_voxel(dst_c, extent_c, p, v);
+        }
+    }
+}

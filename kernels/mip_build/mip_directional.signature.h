@@ -1,0 +1,29 @@
+/* BUILD
+   math: mip opacity
+   module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0
+   module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0
+   module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0
+   module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1
+   module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1
+   module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1
+   module volume_f32x4: SRC_KIND=IMAGE3D PIXEL=f32x4 BY_ROWS=0
+   module volume_f16x4: SRC_KIND=IMAGE3D PIXEL=f16x4 BY_ROWS=0
+   module volume_unorm8x4: SRC_KIND=IMAGE3D PIXEL=unorm8x4 BY_ROWS=0
+*/
+#define PARAMETERS(_) \
+    _(int, src_x)      /* extent of the finer level */ \
+    _(int, src_y) \
+    _(int, src_z) \
+    _(int, dst_x)      /* extent of the level that is made */ \
+    _(int, dst_y) \
+    _(int, dst_z)
+#define CONSTANTS(_) \
+    _(0, int, MODE_X, 1)  /* math/mip.h: copy, pair or triple */ \
+    _(1, int, MODE_Y, 1) \
+    _(2, int, MODE_Z, 1) \
+    _(3, int, CLEAN, 0)   /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */ \
+    _(4, int, AXIS, 0)    /* the volume's direction: 0 x, 1 y, 2 z */ \
+    _(5, int, SIGN, 0)    /* 0: seen by who looks along +axis, 1: along -axis */
+#define BINDINGS(_) \
+    _(SRC_KIND, 0, PIXEL, src) \
+    _(WRITE, 1, PIXEL, dst)

@@ -1,0 +1,28 @@
+/* BUILD
+   math: mip opacity
+   module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0
+   module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0
+   module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0
+   module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1
+   module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1
+   module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1
+   module volume_f32x4: SRC_KIND=IMAGE3D PIXEL=f32x4 BY_ROWS=0
+   module volume_f16x4: SRC_KIND=IMAGE3D PIXEL=f16x4 BY_ROWS=0
+   module volume_unorm8x4: SRC_KIND=IMAGE3D PIXEL=unorm8x4 BY_ROWS=0
+*/
+#define PARAMETERS(_) \
+    _(int, src_x)      /* extent of level 0, each even or 1 */ \
+    _(int, src_y) \
+    _(int, src_z)
+#define CONSTANTS(_) \
+    _(0, int, PAIR_X, 1)  /* 0: extent 1 */ \
+    _(1, int, PAIR_Y, 1) \
+    _(2, int, PAIR_Z, 1)
+#define BINDINGS(_) \
+    _(SRC_KIND, 0, PIXEL, src) \
+    _(WRITE, 1, PIXEL, dst_px) \
+    _(WRITE, 2, PIXEL, dst_nx) \
+    _(WRITE, 3, PIXEL, dst_py) \
+    _(WRITE, 4, PIXEL, dst_ny) \
+    _(WRITE, 5, PIXEL, dst_pz) \
+    _(WRITE, 6, PIXEL, dst_nz)
