@@ -15,7 +15,8 @@ bool kind_fits(ResourceKind resource, BindingKind binding) {
     case ResourceKind::buffer: return !is_image(binding) && binding != BindingKind::uniform;
     case ResourceKind::image: return binding == BindingKind::image2d || binding == BindingKind::image3d;
     case ResourceKind::sampled_image: return is_sampled(binding);
-    case ResourceKind::storage_image: return binding == BindingKind::image_write2d;
+    case ResourceKind::storage_image: 
+      return binding == BindingKind::image_write2d || binding == BindingKind::image_read2d || is_sampled(binding);
   }
   return false;
 }

@@ -15,7 +15,7 @@ namespace luxel {
 
 constexpr bool is_image(BindingKind kind) {
   return kind == BindingKind::image2d || kind == BindingKind::image3d || kind == BindingKind::sampled2d ||
-         kind == BindingKind::sampled3d || kind == BindingKind::image_write2d;
+         kind == BindingKind::sampled3d || kind == BindingKind::image_write2d || kind == BindingKind::image_read2d;
 }
 constexpr bool is_sampled(BindingKind kind) { return kind == BindingKind::sampled2d || kind == BindingKind::sampled3d; }
 constexpr bool is_3d(BindingKind kind) { return kind == BindingKind::image3d || kind == BindingKind::sampled3d; }

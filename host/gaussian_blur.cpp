@@ -53,15 +53,17 @@ Status validate(const GaussianBlurParams& p) {
     return out_of_range("GaussianBlurParams.sigma", p.sigma, "0..1365, or a radius given (0..4095)");
   LUXEL_CHECK(check_range("GaussianBlurParams.border", static_cast<int>(p.border), 0, 3));
   LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 2));
-  LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 1));
+  LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 2));
   if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
     return out_of_range("GaussianBlurParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
   if (p.keep_alpha && channels(p.format) != 4)
     return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for a format of fewer than four channels");
+  if (p.variant == GaussianVariant::direct && p.input == Input::storage_image)
+    return out_of_range("GaussianBlurParams.input", "storage_image", "buffer or image for variant direct");
   if (p.variant == GaussianVariant::direct)
     LUXEL_CHECK(check_range("GaussianBlurParams.radius of variant direct", effective_radius(p), 0, max_direct_radius));
   if (p.variant == GaussianVariant::sampler) {
-    if (p.input != Input::image) return out_of_range("GaussianBlurParams.input", "buffer", "image for variant sampler");
+    if (p.input != Input::image) return out_of_range("GaussianBlurParams.input", p.input == Input::buffer ? "buffer" : "storage_image", "image for variant sampler");
     if (p.border == Border::mirror || p.border == Border::zero)
       return out_of_range("GaussianBlurParams.border", p.border == Border::mirror ? "mirror" : "zero",
                           "clamp or wrap for variant sampler");
@@ -154,8 +156,9 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   dst.bytes = (static_cast<std::size_t>(p.height - 1) * dst_stride + p.width) * bytes_per_pixel(p.format);
   dst.written = true;
   src.may_alias = dst.may_alias = two && p.input == Input::buffer;
-  if (p.input == Input::image) {
-    src.kind = sampler ? ResourceKind::sampled_image : ResourceKind::image;
+  if (p.input != Input::buffer) {
+    src.kind = sampler ? ResourceKind::sampled_image
+                       : p.input == Input::image ? ResourceKind::image : ResourceKind::storage_image;
     src.address = p.border == Border::wrap ? Address::wrap : Address::clamp;
     src.bytes = 0;
   }
@@ -164,7 +167,8 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   const std::string name_of = name(p.format);
   const Format middle_format = n == 1 ? Format::f32x1 : n == 2 ? Format::f32x2 : Format::f32x4;
   const std::string middle_name = name(middle_format);
-  const std::string input = p.input == Input::image ? "image_" + name_of : name_of;
+  const std::string read = profile.texels && separable ? "texels_" : "";  // how buffers are read
+  const std::string input = (p.input == Input::buffer ? read : p.input == Input::image ? "image_" : "storage_") + name_of;
 
   const auto weights = [&](int r) {
     return planner.table(gaussian_weights(p.sigma, r, true), gaussian_weights(p.sigma, r, false));
@@ -224,9 +228,8 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
     const Shape& shape = axis == 0 ? profile.rows : profile.columns;
     const int lanes = std::max(shape.lanes, n);
     const int wide_pixels = lanes / n;
-    const bool sideways = axis == 0 && wide_pixels == 1;
-    const int across = sideways ? shape.block : wide_pixels;
-    const int down = sideways ? 1 : shape.block;
+    const int across = axis == 0 ? wide_pixels * shape.block : wide_pixels;
+    const int down = axis == 0 ? 1 : shape.block;
     planner.pass("gaussian_blur", module, axis == 0 ? "gaussian_blur rows" : "gaussian_blur columns",
                  {static_cast<std::uint32_t>((p.width + across - 1) / across),
                   static_cast<std::uint32_t>((p.height + down - 1) / down), 1},
@@ -240,12 +243,12 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   };
   const double edge = pixels * bytes_per_pixel(p.format);
   const double inner = pixels * bytes_per_pixel(middle_format);
-  const Slot table = weights(radius);
+  const Slot table = weights(std::max(radius_x, radius_y));  // 0 for a single pixel
   if (two) {
     const Slot middle = planner.scratch(middle_format, static_cast<std::size_t>(p.width) * p.height);
     const bool same = p.format == middle_format;
     axis_pass(0, radius_x, same ? input : input + "_" + middle_name, src_stride, p.width, from, middle, table, edge + inner);
-    axis_pass(1, radius_y, same ? name_of : middle_name + "_" + name_of, p.width, dst_stride, middle, to, table, inner + edge);
+    axis_pass(1, radius_y, read + (same ? name_of : middle_name + "_" + name_of), p.width, dst_stride, middle, to, table, inner + edge);
   } else {
     const int axis = radius_y > 0 ? 1 : 0;
     axis_pass(axis, axis == 0 ? radius_x : radius_y, input, src_stride, dst_stride, from, to, table, 2 * edge);

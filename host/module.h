@@ -11,7 +11,8 @@ namespace luxel {
 
 namespace reference { struct Dispatch; }
 
-enum class BindingKind { read, write, update, texels, uniform, image2d, image3d, sampled2d, sampled3d, image_write2d };
+enum class BindingKind { read, write, update, texels, uniform, image2d, image3d, sampled2d, sampled3d,
+                         image_write2d, image_read2d };
 
 struct BindingInfo {
   BindingKind kind;

@@ -24,6 +24,8 @@ constexpr Scalar scalar_of(float) { return Scalar::float32; }
 #define TABLE_SAMPLED2D BindingKind::sampled2d
 #define TABLE_SAMPLED3D BindingKind::sampled3d
 #define TABLE_IMAGE_WRITE2D BindingKind::image_write2d
+#define TABLE_IMAGE_READ2D BindingKind::image_read2d
+#define TABLE_COUNT_IMAGE_READ2D(type) 0
 #define TABLE_COUNT_READ(type) 0
 #define TABLE_COUNT_WRITE(type) 0
 #define TABLE_COUNT_UPDATE(type) 0

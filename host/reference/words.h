@@ -7,6 +7,7 @@
 #include <atomic>
 #include <iterator>
 #include <type_traits>
+#include <vector>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -49,9 +50,9 @@ struct Wide {
   friend Wide operator*(Real s, Wide a) { for (int i = 0; i < N; ++i) a.v[i] *= s; return a; }
   friend Wide operator/(Wide a, Real s) { for (int i = 0; i < N; ++i) a.v[i] /= s; return a; }
 };
-template <class Real, int N> Wide<Real, N> choose(const Wide<Real, N>& which, Wide<Real, N> v) {
-  for (int i = 0; i < N; ++i) v.v[i] = which.v[i] != 0 ? v.v[i] : Real(0);
-  return v;
+template <class Real, int N> Wide<Real, N> choose(const Wide<Real, N>& which, Wide<Real, N> yes, const Wide<Real, N>& no) {
+  for (int i = 0; i < N; ++i) yes.v[i] = which.v[i] != 0 ? yes.v[i] : no.v[i];
+  return yes;
 }
 template <class Real, int N> Wide<Real, N> with_alpha_of(Wide<Real, N> w, const Wide<Real, N>& alpha) {
   for (int i = 3; i < N; i += 4) w.v[i] = alpha.v[i];
@@ -145,6 +146,20 @@ struct Array : Bound {
     while (!cell.compare_exchange_weak(old, change(old), std::memory_order_relaxed)) {}
     return old;
   }
+};
+
+// Workgroup memory.
+template <class T, int N>
+struct Shared {
+  T values[N];
+  std::atomic<std::size_t>* outside = nullptr;
+  T& operator[](int i) {
+    if (i >= 0 && i < N) return values[i];
+    outside->fetch_add(1, std::memory_order_relaxed);
+    return values[0];
+  }
+  T get(int i) { return (*this)[i]; }
+  void put(int i, const T& v) { (*this)[i] = v; }
 };
 
 // Images: texels decoded by the format they are stored in; Real channels, missing ones 0 (alpha too).

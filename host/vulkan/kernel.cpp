@@ -77,9 +77,11 @@ Status compile(Device::State& device, const KernelKey& key, const std::string& l
   vkDestroyShaderModule(vk, shader, nullptr);
   if (result != VK_SUCCESS) {
     kernel.pipeline = VK_NULL_HANDLE;
-    return failure(label + ": vkCreateComputePipelines for " + std::string(module.part) + " " +
-                       std::string(module.name) + on,
-                   result, Code::compile_failed);
+    const Status refused = failure(label + ": vkCreateComputePipelines for " + std::string(module.part) + " " +
+                                       std::string(module.name) + on,
+                                   result, Code::compile_failed);
+    if (refused.code() != Code::compile_failed) return refused;
+    return Status(Code::compile_failed, refused.message() + "; a newer driver or another device may do");
   }
   cache.save();
 
@@ -133,7 +135,8 @@ VkDescriptorType descriptor_type(BindingKind kind) {
     case BindingKind::image3d: return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     case BindingKind::sampled2d:
     case BindingKind::sampled3d: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    case BindingKind::image_write2d: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+    case BindingKind::image_write2d:
+    case BindingKind::image_read2d: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
   }
   return VK_DESCRIPTOR_TYPE_MAX_ENUM;
 }

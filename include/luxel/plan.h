@@ -45,11 +45,15 @@ enum class ResourceKind {
   buffer,         // storage buffer / cl_mem buffer / memory
   image,          // sampled image read by integer coordinates (2-D or 3-D), no sampler
   sampled_image,  // sampled image read through a linear sampler, which the pipeline owns
-  storage_image   // image that is written; a later pass may sample it
+  storage_image   // image that is written, or read without a sampler; a later pass may sample it
 };
 
 /// How the caller binds the input of a kernel that takes either.
-enum class Input { buffer, image };
+enum class Input {
+  buffer,
+  image,         // sampled image (usage SAMPLED), read without a sampler
+  storage_image  // storage image (usage STORAGE): faster on software drivers
+};
 
 /// How coordinates outside a sampled image are addressed.
 enum class Address { clamp, wrap };
@@ -123,6 +127,7 @@ struct Profile {
   Shape pixels;     // one invocation a pixel
   Shape voxels;     // one invocation a voxel
   bool workgroup_memory = false;   // forms with workgroup memory pay
+  bool texels = false;             // buffers of pixels are read faster through texel buffers (Vulkan)
 };
 
 /// Defaults by name (above). An unknown name gives `reference`.

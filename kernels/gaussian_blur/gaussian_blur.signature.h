@@ -16,6 +16,22 @@
    module image_unorm8x4_f32x4: SRC_KIND=IMAGE2D SRC=unorm8x4 DST=f32x4
    module image_f16x4: SRC_KIND=IMAGE2D SRC=f16x4 DST=f16x4
    module image_unorm8x4: SRC_KIND=IMAGE2D SRC=unorm8x4 DST=unorm8x4
+   module storage_f32x1: CHANNELS=1 SRC_KIND=IMAGE_READ2D SRC=f32x1 DST=f32x1
+   module storage_f32x2: CHANNELS=2 SRC_KIND=IMAGE_READ2D SRC=f32x2 DST=f32x2
+   module storage_f32x4: SRC_KIND=IMAGE_READ2D SRC=f32x4 DST=f32x4
+   module storage_f16x4: SRC_KIND=IMAGE_READ2D SRC=f16x4 DST=f16x4
+   module storage_f16x4_f32x4: SRC_KIND=IMAGE_READ2D SRC=f16x4 DST=f32x4
+   module storage_unorm8x4: SRC_KIND=IMAGE_READ2D SRC=unorm8x4 DST=unorm8x4
+   module storage_unorm8x4_f32x4: SRC_KIND=IMAGE_READ2D SRC=unorm8x4 DST=f32x4
+   module texels_f32x1: CHANNELS=1 SRC_KIND=TEXELS SRC=f32x1 DST=f32x1
+   module texels_f32x2: CHANNELS=2 SRC_KIND=TEXELS SRC=f32x2 DST=f32x2
+   module texels_f32x4: SRC_KIND=TEXELS SRC=f32x4 DST=f32x4
+   module texels_f16x4: SRC_KIND=TEXELS SRC=f16x4 DST=f16x4
+   module texels_f16x4_f32x4: SRC_KIND=TEXELS SRC=f16x4 DST=f32x4
+   module texels_f32x4_f16x4: SRC_KIND=TEXELS SRC=f32x4 DST=f16x4
+   module texels_unorm8x4: SRC_KIND=TEXELS SRC=unorm8x4 DST=unorm8x4
+   module texels_unorm8x4_f32x4: SRC_KIND=TEXELS SRC=unorm8x4 DST=f32x4
+   module texels_f32x4_unorm8x4: SRC_KIND=TEXELS SRC=f32x4 DST=unorm8x4
 */
 #define PARAMETERS(_) \
     _(int, width)      /* pixels */ \
@@ -32,7 +48,7 @@
     _(6, int, SPLIT, 1)      /* 1: the inside has code of its own, without borders */
 #define SHAPE(_) \
     _(8, int, LANES, 16)     /* neighbouring channels an invocation computes */ \
-    _(9, int, BLOCK, 1)      /* results an invocation computes, one after the other */
+    _(9, int, BLOCK, 1)      /* results an invocation computes along the axis */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, SRC, src) \
     _(WRITE, 1, DST, dst) \

@@ -23,8 +23,8 @@ FN wide pair(CTX, wide origin, int x, int y, int tx, bool inside) {
     wide low = tap(ctx, x, y, -tx, inside) - origin;
     wide high = tap(ctx, x, y, tx, inside) - origin;
     if (BORDER == BORDER_ZERO && !inside) {
-        low = choose(within(ctx, x, -tx), low);
-        high = choose(within(ctx, x, tx), high);
+        low = choose(within(ctx, x, -tx), low, wide_splat(0.0f));
+        high = choose(within(ctx, x, tx), high, wide_splat(0.0f));
     }
     return table(row_weights, tx) * (low + high);
 }

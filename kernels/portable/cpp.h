@@ -20,6 +20,7 @@
 #define pixel Pixel<float, CHANNELS>
 #define wide Wide<float, LANES>
 #define PIXELS (LANES / CHANNELS)
+#define ARRAY(type, name, count) std::vector<type> name(count);
 #define wide_splat(s) splat<wide, float>(s)
 #define get_pixel(w, k) pixel_of<pixel>(w, k)
 #define set_pixel(w, k, p) put_pixel<pixel>(w, k, p)
@@ -29,7 +30,8 @@
 #define CPP_CONSTANT(id, type, name, fallback) type name = fallback;
 #define CPP_CONSTANT_SET(id, type, name, fallback) name = static_cast<type>(d_.constants[i_++]);
 #define CPP_SHAPE(id, type, name, fallback) static constexpr type name = fallback;
-#define CPP_SHARED(type, count, name) type name[count];
+#define CPP_SHARED(type, count, name) Shared<type, count> name;
+#define CPP_SHARED_SET(type, count, name) name.outside = d_.outside;
 #define CPP_BINDING(kind, slot, type, name) CPP_BINDING_(kind, slot, type, name)
 #define CPP_BINDING_(kind, slot, type, name) CPP_##kind(type, name)
 #define CPP_BINDING_SET(kind, slot, type, name) name.memory = &d_.bindings[i_++]; name.outside = d_.outside;
@@ -40,6 +42,7 @@
 #define CPP_IMAGE_WRITE2D(type, name) CPP_TYPE_##type name;
 #define CPP_UNIFORM(count, name) Array<float> name;
 #define CPP_IMAGE2D(type, name) Texture<float> name;
+#define CPP_IMAGE_READ2D(type, name) Texture<float> name;
 #define CPP_IMAGE3D(type, name) Texture<float> name;
 #define CPP_SAMPLED2D(type, name) Texture<float> name;
 #define CPP_SAMPLED3D(type, name) Texture<float> name;

@@ -42,6 +42,39 @@ def to_double(text):
     return TOKEN.sub(swap, text)
 
 
+# Words that some of the three languages reserves and the dialect does not use.
+RESERVED = frozenset("""
+    alignas alignof and and_eq asm auto bitand bitor catch char class compl concept consteval constexpr constinit const_cast
+    co_await co_return co_yield decltype delete double dynamic_cast enum explicit export extern friend goto inline long mutable
+    namespace new noexcept not not_eq nullptr operator or or_eq private protected public register reinterpret_cast requires
+    short signed sizeof static static_assert static_cast template this thread_local throw try typedef typeid typename union
+    unsigned using virtual volatile wchar_t xor xor_eq
+    kernel global local constant half quad complex imaginary uchar ushort ulong size_t ptrdiff_t event_t sampler_t pipe
+    image1d_t image2d_t image3d_t read_only write_only read_write vec_step as_float as_int as_uint
+    attribute uniform varying buffer shared coherent restrict readonly writeonly atomic_uint layout centroid flat smooth
+    noperspective patch sample invariant precise precision highp mediump lowp subroutine in out inout discard common partition
+    active noinline external interface fixed superp input output filter cast resource sampler2DRect texture2D texture3D
+    sampler2D sampler3D image2D image3D double2 double4 float2 float3 float4 float8 float16 int2 int3 int4 uint2 uint3 uint4
+    dvec2 dvec3 dvec4 mat2x2 mat3x3 mat4x4 main barrier
+""".split())
+# Functions whose result the languages define differently, or not at all.
+UNPORTABLE = re.compile(r"\b(round|rint|fmod|fma|mad|mod|rsqrt|inversesqrt|native_\w+|half_\w+|fast_\w+|fmin|fmax|isnormal)\s*\(")
+
+
+def lint(text):
+    """Lines of complaint about kernel text: reserved words, functions that are not the same everywhere, stray includes."""
+    complaints = []
+    bare = re.sub(r"//[^\n]*|/\*.*?\*/", lambda match: "\n" * match.group().count("\n"), text, flags=re.DOTALL)
+    for number, line in enumerate(bare.splitlines(), 1):
+        for word in re.findall(r"[A-Za-z_]\w*", line):
+            if word in RESERVED or word.startswith("gl_") or "__" in word:
+                complaints.append(f"{number}: `{word}` is reserved in one of the three languages")
+        complaints += [f"{number}: `{word}` is not the same in the three languages" for word in UNPORTABLE.findall(line)]
+        if "#include" in line:
+            complaints.append(f"{number}: kernel and math files include nothing; list math files in the signature")
+    return complaints
+
+
 def flatten(text):
     """Resolves the includes that the portable headers make of math files."""
     def include(match):
@@ -159,6 +192,7 @@ explicit Kernel([[maybe_unused]] const Dispatch& d_) {{
   CONSTANTS(CPP_CONSTANT_SET)
   i_ = 0;
   BINDINGS(CPP_BINDING_SET)
+  SHARED_MEMORY(CPP_SHARED_SET)
 }}
 {sources}}};
 {tables}}}
@@ -214,6 +248,11 @@ def main():
     source = {"signature": defaults(signature) + signature, "kernel": part.with_name(stem + ".kernel.h").read_text(),
               "math": "".join((KERNELS / f"math/{name}.h").read_text() for name in math)}
     out.mkdir(parents=True, exist_ok=True)
+    files = [part.with_name(stem + ".signature.h"), part.with_name(stem + ".kernel.h"),
+             *(KERNELS / f"math/{name}.h" for name in math)]
+    complaints = [f"{path}:{line}" for path in files for line in lint(path.read_text())]
+    if complaints:
+        sys.exit("\n".join(complaints))
 
     cpp = ['#include "host/module_table.h"\n#include "host/reference/words.h"\n\nnamespace luxel::reference {\nnamespace {\n'
            "// All but the entry that keeps an array from being empty.\n"

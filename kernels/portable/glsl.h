@@ -22,20 +22,21 @@ layout(local_size_x_id = 100, local_size_y_id = 101, local_size_z_id = 102) in;
 #if CHANNELS == 1
 #define wide float
 #define pixel float
-wide choose(wide which, wide v) { return which != 0.0f ? v : 0.0f; }
+wide choose(wide which, wide yes, wide no) { return which != 0.0f ? yes : no; }
 #define with_alpha_of(w, alpha) (w)
 #elif CHANNELS == 2
 #define wide vec2
 #define pixel vec2
-wide choose(wide which, wide v) { return mix(vec2(0.0f), v, notEqual(which, vec2(0.0f))); }
+wide choose(wide which, wide yes, wide no) { return mix(no, yes, notEqual(which, vec2(0.0f))); }
 #define with_alpha_of(w, alpha) (w)
 #else
 #define wide vec4
 #define pixel vec4
-wide choose(wide which, wide v) { return mix(vec4(0.0f), v, notEqual(which, vec4(0.0f))); }
+wide choose(wide which, wide yes, wide no) { return mix(no, yes, notEqual(which, vec4(0.0f))); }
 vec4 with_alpha_of(vec4 w, vec4 alpha) { return vec4(w.xyz, alpha.w); }
 #endif
 #define wide_splat(s) wide(s)
+#define ARRAY(type, name, count) type name[count];
 #define get_pixel(w, k) (w)
 #define set_pixel(w, k, p) w = (p)
 
@@ -115,6 +116,9 @@ uint unorm8x4_bits(vec4 v) {
 #define GLSL_IMAGE3D(slot, type, name) \
     layout(set = 0, binding = slot) uniform texture3D name; \
     pixel load_voxel_##name(ivec3 extent, ivec3 p) { return GLSL_CHANNELS(texelFetch(name, p, 0)); }
+#define GLSL_IMAGE_READ2D(slot, type, name) \
+    layout(set = 0, binding = slot, GLSL_IMAGE_FORMAT_##type) restrict readonly uniform image2D name; \
+    pixel load_pixel_##name(int stride, int x, int y) { return GLSL_CHANNELS(imageLoad(name, ivec2(x, y))); }
 #define GLSL_SAMPLED2D(slot, type, name) layout(set = 0, binding = slot) uniform sampler2D name;
 #define GLSL_SAMPLED3D(slot, type, name) layout(set = 0, binding = slot) uniform sampler3D name;
 #define GLSL_IMAGE_FORMAT_f32x1 r32f

@@ -63,6 +63,7 @@ OVERLOAD float4 abs(float4 v) { return fabs(v); }
 #define OCL_UPDATE(type, name) , volatile __global OCL_TYPE_##type* name
 #define OCL_UNIFORM(count, name) , __constant float* restrict name
 #define OCL_IMAGE2D(type, name) , __read_only image2d_t name
+#define OCL_IMAGE_READ2D(type, name) , __read_only image2d_t name
 #define OCL_IMAGE3D(type, name) , __read_only image3d_t name
 #define OCL_SAMPLED2D(type, name) , __read_only image2d_t name, sampler_t name##_sampler
 #define OCL_SAMPLED3D(type, name) , __read_only image3d_t name, sampler_t name##_sampler
@@ -73,6 +74,7 @@ OVERLOAD float4 abs(float4 v) { return fabs(v); }
 #define OCL_ARG_UPDATE(name) , name
 #define OCL_ARG_UNIFORM(name) , name
 #define OCL_ARG_IMAGE2D(name) , name
+#define OCL_ARG_IMAGE_READ2D(name) , name
 #define OCL_ARG_IMAGE3D(name) , name
 #define OCL_ARG_SAMPLED2D(name) , name, name##_sampler
 #define OCL_ARG_SAMPLED3D(name) , name, name##_sampler
@@ -105,11 +107,12 @@ typedef float wide;
 typedef OCL_JOIN(float, LANES) wide;
 #endif
 #define PIXELS (LANES / CHANNELS)
-// v where `which` is not 0, else 0.
+#define ARRAY(type, name, count) type name[count];
+// yes where `which` is not 0, else no.
 #if LANES == 1
-OVERLOAD wide choose(wide which, wide v) { return which != 0.0f ? v : 0.0f; }
+OVERLOAD wide choose(wide which, wide yes, wide no) { return which != 0.0f ? yes : no; }
 #else
-OVERLOAD wide choose(wide which, wide v) { return select((wide)(0.0f), v, which != 0.0f); }
+OVERLOAD wide choose(wide which, wide yes, wide no) { return select(no, yes, which != 0.0f); }
 #endif
 #define wide_splat(s) ((wide)(s))
 OVERLOAD pixel get_pixel(wide w, int k) { return ((const pixel*)&w)[k]; }
@@ -186,14 +189,15 @@ OVERLOAD pixel load_voxel(__read_only image3d_t b, int3 extent, int3 p) {
 #define load_wide(b, stride, x, y) load_pixel(b, stride, x, y)
 #define store_wide(b, stride, x, y, v) store_pixel(b, stride, x, y, v)
 #else
-#define OCL_VLOAD OCL_JOIN(vload, LANES)
-#define OCL_VSTORE OCL_JOIN(vstore, LANES)
+// A plain load of a vector that is only aligned to its elements: vloadN is put together from halves, which the compiler
+// then takes apart again around the next addition.
+typedef wide ocl_wide __attribute__((aligned(4)));
 #define OCL_WIDE_FLOAT(stored) \
     OVERLOAD wide load_wide(__global const stored* b, int stride, int x, int y) { \
-        return OCL_VLOAD(0, (__global const float*)(b + y * stride + x)); \
+        return *(__global const ocl_wide*)(b + y * stride + x); \
     } \
     OVERLOAD void store_wide(__global stored* b, int stride, int x, int y, wide v) { \
-        OCL_VSTORE(v, 0, (__global float*)(b + y * stride + x)); \
+        *(__global ocl_wide*)(b + y * stride + x) = v; \
     }
 OCL_WIDE_FLOAT(float)
 OCL_WIDE_FLOAT(float2)
@@ -209,7 +213,7 @@ OCL_WIDE_FLOAT(float4)
 OCL_WIDE_HALF(ushort2)
 OCL_WIDE_HALF(ushort4)
 OVERLOAD wide load_wide(__global const uchar4* b, int stride, int x, int y) {
-    return OCL_JOIN(convert_float, LANES)(OCL_VLOAD(0, (__global const uchar*)(b + y * stride + x))) / 255.0f;
+    return OCL_JOIN(convert_float, LANES)(OCL_JOIN(vload, LANES)(0, (__global const uchar*)(b + y * stride + x))) / 255.0f;
 }
 OVERLOAD void store_wide(__global uchar4* b, int stride, int x, int y, wide v) {
     __global uchar* to = (__global uchar*)(b + y * stride + x);

@@ -52,7 +52,7 @@ KERNEL(probe) {
             wide far = wide_splat(0.0f);
             UNROLL for (int k = 0; k < PIXELS; ++k)
                 set_pixel(far, k, load_pixel(linear_texels, params.width, border_index(BORDER_CLAMP, x + k + STEP, params.width), y));
-            w = choose(wide_splat(1.0f), w + far);
+            w = choose(wide_splat(1.0f), w + far, far);
             store_wide(dst, params.width, x, y, w);
             if (x == 0) store_pixel(dst, params.width, x, y, get_pixel(w, 0));
         }

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""The build step that turns kernels into three languages: the rewrite to double, the lint, NoContraction."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "kernels/portable"))
+import generate
+
+
+class ToDouble(unittest.TestCase):
+    def check(self, text, expected):
+        self.assertEqual(generate.to_double(text), expected)
+
+    def test_types(self):
+        self.check("float a; vec2 b; vec3 c; vec4 d; mat3 e; mat2x4 f;", "double a; dvec2 b; dvec3 c; dvec4 d; dmat3 e; dmat2x4 f;")
+        self.check("float(x) + vec4(1)", "double(x) + dvec4(1)")
+
+    def test_integer_types_stay(self):
+        self.check("ivec2 a; uvec4 b; uint c; int d; bool e;", "ivec2 a; uvec4 b; uint c; int d; bool e;")
+
+    def test_suffixes(self):
+        self.check("1.0f 1.f .5f 1e-3f 2.5E+7F 1f", "1.0 1. .5 1e-3 2.5E+7 1.0")
+        self.check("1.0 3u 7 2.5e3", "1.0 3u 7 2.5e3")
+
+    def test_hex_numbers_stay(self):
+        self.check("0x1f 0xFF 0x7f800000u 0x0f", "0x1f 0xFF 0x7f800000u 0x0f")
+
+    def test_longer_names_stay(self):
+        text = "floatBitsToUint(x) my_float float_ afloat vec4_at uintBitsToFloat avec4 vec5 f1f x1f e1f _1f"
+        self.check(text, text)
+
+    def test_names_of_formats_and_pasted_macros_stay(self):
+        self.check("_(READ, 0, f32x4, src) CPP_TYPE_float LOAD_vec4", "_(READ, 0, f32x4, src) CPP_TYPE_float LOAD_vec4")
+        self.check("_(READ, 0, float, numbers)", "_(READ, 0, double, numbers)")
+
+    def test_comments_stay(self):
+        self.check("// a float of 1.0f\n/* vec4\n 2.0f */ float x;", "// a float of 1.0f\n/* vec4\n 2.0f */ double x;")
+
+    def test_adjacent_operators(self):
+        self.check("a-1.0f*b/2.f+c.x", "a-1.0*b/2.+c.x")
+        self.check("v.xyzw*1.0f", "v.xyzw*1.0")
+        self.check("x<1.0f?vec2(0.0f):y", "x<1.0?dvec2(0.0):y")
+
+
+class Lint(unittest.TestCase):
+    def test_reserved(self):
+        for word in ("half", "sample", "input", "filter", "kernel", "class", "and", "buffer", "this", "global", "main"):
+            self.assertTrue(generate.lint(f"float {word} = 1.0f;"), word)
+
+    def test_unportable(self):
+        for call in ("round(x)", "fma(a, b, c)", "native_exp(x)", "mod(a, b)", "inversesqrt(x)"):
+            self.assertTrue(generate.lint(f"float y = {call};"), call)
+
+    def test_includes(self):
+        self.assertTrue(generate.lint('#include "math/border.h"'))
+
+    def test_line_numbers(self):
+        self.assertEqual(generate.lint("/* a\n b */\nfloat half;")[0].split(":")[0], "3")
+
+    def test_clean(self):
+        self.assertEqual(generate.lint("// the kernel samples a half buffer\nFN float f(float x) { return x * 2.0f; }"), [])
+
+    def test_every_kernel_is_clean(self):
+        files = [*generate.KERNELS.glob("*/*.kernel.h"), *generate.KERNELS.glob("*/*.signature.h"), *generate.KERNELS.glob("math/*.h")]
+        self.assertGreater(len(files), 3)
+        for path in files:
+            self.assertEqual(generate.lint(path.read_text()), [], path)
+
+
+class NoContraction(unittest.TestCase):
+    def test_every_float_result_is_decorated(self):
+        text = ("#version 450\nlayout(std430, binding = 0) buffer B { float v[]; };\nlayout(local_size_x = 1) in;\n"
+                "void main() { v[0] = v[1] * v[2] + v[3] / v[4] - (-v[5]); int i = 3; v[6] = float(i * 4); }\n")
+        with tempfile.TemporaryDirectory() as folder:
+            words = generate.compile_spirv(text, pathlib.Path(folder) / "a.comp", "glslangValidator")
+            check = subprocess.run(["spirv-val", str(pathlib.Path(folder) / "a.spv")], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout + check.stderr)
+        results, decorated, at = set(), set(), 5
+        while at < len(words):
+            opcode, count = words[at] & 0xffff, words[at] >> 16
+            if opcode in (127, 129, 131, 133, 136):  # OpFNegate, OpFAdd, OpFSub, OpFMul, OpFDiv
+                results.add(words[at + 2])
+            if opcode == 71 and words[at + 2] == 42:
+                decorated.add(words[at + 1])
+            at += count
+        self.assertEqual(len(results), 5)
+        self.assertEqual(results, decorated)
+
+
+class Build(unittest.TestCase):
+    def test_comment(self):
+        math, modules = generate.parse_build("/* BUILD\n   math: border packing\n   module a: X=1 Y=f32x4\n   module b:\n*/\n")
+        self.assertEqual(math, ["border", "packing"])
+        self.assertEqual(modules, [("a", {"X": "1", "Y": "f32x4"}), ("b", {})])
+
+    def test_missing_comment(self):
+        with self.assertRaises(SystemExit):
+            generate.parse_build("#define PARAMETERS(_)\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
