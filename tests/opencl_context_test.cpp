@@ -183,6 +183,9 @@ TEST_P(Refusals, ForeignMissingAndMisfittingThings) {
   refused(context->run(*program, {{"src", src}, {"dst", small}}),
           "gaussian_blur: binding dst has 16 bytes; needs at least " + need);
   resource.kind = ResourceKind::image;
+  const auto image = context->make(resource).value();
+  refused(context->run(*program, {{"src", image}, {"dst", dst}}),
+          "gaussian_blur: binding src is an image; expected a buffer");
   resource.extent = {0, 1, 1};
   refused(context->make(resource).status(), "Resource.extent of small has a side of 0; expected at least 1");
   EXPECT_TRUE(context->run(*program, {{"src", src}, {"dst", dst}}).ok()) << "still usable after every refusal";

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <mutex>
 
-#include "host/bindings.h"
 #include "host/context.h"
 #include "host/files.h"
 #include "host/opencl/device.h"
@@ -90,7 +89,6 @@ class OpenClContext final : public Context {
  private:
   Result<OwnedMemory> make_image(const Resource& resource);
   Status check_copy(const Memory& memory, std::size_t bytes, const char* verb) const;
-  Result<std::vector<Binding>> bind(const CompiledPlan& program, const std::vector<Named>& resources) const;
 
   DeviceInfo info_;
   Device device_;
@@ -202,17 +200,12 @@ bool names_scratch(const std::vector<Named>& resources) {
   return std::any_of(resources.begin(), resources.end(), [](const Named& named) { return named.name == "scratch"; });
 }
 
-Result<std::vector<Binding>> OpenClContext::bind(const CompiledPlan& program,
-                                                 const std::vector<Named>& resources) const {
-  const Plan& plan = program.pipeline.plan();
+std::vector<Binding> bindings_of(const CompiledPlan& program, const std::vector<Named>& resources) {
   std::vector<Binding> bindings;
-  for (const Named& named : resources) {
-    if (!named.memory) return bad_binding(plan, named.name, "has no memory");
-    if (named.memory->owner != this) return bad_binding(plan, named.name, "belongs to another device");
+  for (const Named& named : resources)
     bindings.push_back({named.name, static_cast<DeviceMemory&>(*named.memory).handle.get(), 0, named.memory->bytes});
-  }
   if (program.scratch && !names_scratch(resources))
-    bindings.push_back({"scratch", program.scratch.get(), 0, plan.scratch_bytes});
+    bindings.push_back({"scratch", program.scratch.get(), 0, program.pipeline.plan().scratch_bytes});
   return bindings;
 }
 
@@ -240,9 +233,8 @@ Status OpenClContext::run_many(Program& program, const std::vector<Named>& resou
   if (repeat < 1)
     return Status(Code::invalid_argument,
                   plan.kernel + ": repeat is " + std::to_string(repeat) + "; expected at least 1");
-  const Result<std::vector<Binding>> bindings = bind(compiled, resources);
-  if (!bindings) return bindings.status();
-
+  if (Status status = check_memories(this, plan, resources); !status) return status;
+  const std::vector<Binding> bindings = bindings_of(compiled, resources);
   const bool own_scratch = !names_scratch(resources);
 
   const Clock::time_point begin = Clock::now();
@@ -253,7 +245,7 @@ Status OpenClContext::run_many(Program& program, const std::vector<Named>& resou
     Enqueue options;
     options.pass_events = &pass_events;
     options.tables_current = i > 0 || (own_scratch && compiled.tables_current);
-    status = compiled.pipeline.enqueue(queue_.get(), bindings.value(), options);
+    status = compiled.pipeline.enqueue(queue_.get(), bindings, options);
     for (const cl_event event : pass_events) events.emplace_back(event);
   }
   cl_int error = clFinish(queue_.get());
