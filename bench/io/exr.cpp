@@ -21,10 +21,21 @@
 namespace luxel::io {
 namespace {
 
-// Most bytes of pixels from a byte of file: DWA stores an 8x8 block of halves as one coefficient of 2 bytes, which
-// deflate then shrinks by up to 1032. Small files may ask for a little more than that.
-constexpr double most_expansion = 64 * 1032;
-constexpr double small = 64.0 * 1024 * 1024;
+// What a compression can do, by its number in the file: rows in a chunk, and most bytes of pixels from a byte of file.
+struct Compression {
+  int rows;
+  double expansion;
+};
+constexpr std::array<Compression, 10> compressions{{
+    {1, 1},                           // none
+    {1, 64},                          // RLE: 128 bytes from 2
+    {1, 1032}, {16, 1032},            // ZIPS, ZIP: deflate makes 258 bytes from two bits
+    {32, 512},                        // PIZ: 256 halves from a code, a run code and 8 bits
+    {16, 1376},                       // PXR24: deflate, and floats of 3 bytes
+    {32, 11}, {32, 11},               // B44, B44A: 4x4 halves from 3 bytes
+    {32, 64 * 1032}, {256, 64 * 1032} // DWAA, DWAB: 8x8 halves from one coefficient of 2 bytes, then deflate
+}};
+constexpr double small = 16.0 * 1024 * 1024;  // bytes of pixels that any file may ask for
 
 class MemoryIn final : public Imf::IStream {
  public:
@@ -84,7 +95,7 @@ class Walk {
     do {
       if (Status s = header(end); !s) return s;
     } while (multipart && !end);
-    return plain_rows_ && !multipart && !tiled ? rows() : Status();
+    return multipart || tiled ? Status() : chunks();
   }
 
  private:
@@ -112,12 +123,28 @@ class Walk {
     return true;
   }
 
+  // OpenEXR reads attributes of these types by the size of the type, so that another size would shift what follows.
+  static bool has_size_of(std::string_view type, std::span<const std::uint8_t> data) {
+    static const std::map<std::string_view, std::size_t> sizes{
+        {"box2i", 16}, {"box2f", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},
+        {"envmap", 1}, {"float", 4}, {"int", 4}, {"keycode", 28}, {"lineOrder", 1}, {"m33f", 36}, {"m33d", 72}, {"m44f", 64},
+        {"m44d", 128}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8}, {"v2i", 8}, {"v2f", 8}, {"v2d", 16}, {"v3i", 12},
+        {"v3f", 12}, {"v3d", 24}};
+    if (type == "preview") {
+      std::array<std::uint32_t, 2> extent{};
+      return take(data, extent) && double(extent[0]) * double(extent[1]) * 4 == double(data.size());
+    }
+    const auto known = sizes.find(type);
+    return known == sizes.end() || known->second == data.size();
+  }
+
   // `end`: nothing but the mark that no further part follows.
   Status header(bool& end) {
     std::array<std::int32_t, 4> window{0, 0, -1, -1};
     double pixel_bytes = 0, tile = 0;
     std::uint8_t compression = 0;
-    bool first = true, subsampled = false;
+    bool first = true;
+    subsampled_ = false;
     while (true) {
       std::string_view name, type;
       std::int32_t size = 0;
@@ -127,6 +154,8 @@ class Walk {
       first = false;
       std::span<const std::uint8_t> data = rest_.first(std::size_t(size));
       rest_ = rest_.subspan(std::size_t(size));
+      if (!has_size_of(type, data))
+        return failure(file_, fmt::format("has an OpenEXR attribute of {} bytes, which is not what its type needs", size), damaged);
       if (name == "compression" && !take(data, compression)) return truncated();
       if (name == "dataWindow" && !take(data, window)) return truncated();
       if (name == "tiles") {
@@ -137,36 +166,42 @@ class Walk {
       if (name == "channels") {
         std::string_view channel;
         std::array<std::int32_t, 4> entry{};  // type, flags, sampling in x and y
-        while (text(data, channel) && !channel.empty()) {
-          if (!take(data, entry)) return truncated();
-          subsampled |= entry[2] != 1 || entry[3] != 1;
+        while (true) {
+          if (!text(data, channel) || channel.empty() != data.empty() || (!channel.empty() && !take(data, entry)))
+            return failure(file_, "has a malformed list of channels", damaged);
+          if (channel.empty()) break;
+          subsampled_ |= entry[2] != 1 || entry[3] != 1;
           pixel_bytes += entry[0] == 1 ? 2 : 4;
         }
       }
     }
     end = first;
     if (first) return {};
-    plain_rows_ = compression == 0 && !subsampled;
+    if (compression >= compressions.size())
+      return failure(file_, fmt::format("has OpenEXR compression {}; expected 0..9", compression), "export it with ZIP");
+    compression_ = compressions[compression];
     const double width = double(window[2]) - window[0] + 1, height = double(window[3]) - window[1] + 1;
     if (!(width >= 1 && height >= 1 && width <= largest_side && height <= largest_side))
       return failure(file_, fmt::format("has a data window of {}x{} pixels; expected 1..{} each way", width, height, largest_side),
                      "crop the image");
-    if (std::max(width * height, tile) * pixel_bytes > small + most_expansion * double(all_.size()))
+    if (std::max(width * height, tile) * pixel_bytes > small + compression_.expansion * double(all_.size()))
       return failure(file_, fmt::format("holds too few bytes for {}x{} pixels", width, height), damaged);
-    height_ = static_cast<std::size_t>(height);
+    height_ = static_cast<int>(height);
     row_bytes_ = width * pixel_bytes;
     return {};
   }
 
-  // Uncompressed rows must have the length of a row: OpenEXR would take what is missing from memory it never wrote.
-  Status rows() {
-    for (std::size_t y = 0; y < height_; ++y) {
+  // The chunks of a plain file: each must lie in it and be long enough for its rows. Uncompressed rows must have their
+  // exact length, since OpenEXR would take what is missing from memory it never wrote.
+  Status chunks() {
+    for (int y = 0; y < height_; y += compression_.rows) {
       std::uint64_t offset = 0;
-      std::array<std::int32_t, 2> row{};  // y, bytes
+      std::array<std::int32_t, 2> chunk{};  // y, bytes
       if (!number(offset)) return truncated();
-      if (offset > all_.size()) offset = all_.size();
-      std::span<const std::uint8_t> at = all_.subspan(std::size_t(offset));
-      if (!take(at, row) || row[1] != row_bytes_ || double(at.size()) < row_bytes_)
+      std::span<const std::uint8_t> at = all_.subspan(std::size_t(std::min<std::uint64_t>(offset, all_.size())));
+      const double wanted = row_bytes_ * std::min(compression_.rows, height_ - y);
+      const bool there = take(at, chunk) && chunk[1] >= 0 && std::size_t(chunk[1]) <= at.size();
+      if (!there || (!subsampled_ && (wanted > chunk[1] * compression_.expansion || (compression_.expansion == 1 && wanted != chunk[1]))))
         return failure(file_, fmt::format("is damaged in row {} of {}", y, height_), damaged);
     }
     return {};
@@ -174,8 +209,10 @@ class Walk {
 
   std::span<const std::uint8_t> rest_, all_;
   const std::string& file_;
-  bool plain_rows_ = false;  // of the last header
-  std::size_t height_ = 0;
+  // Of the last header:
+  Compression compression_{};
+  bool subsampled_ = false;
+  int height_ = 0;
   double row_bytes_ = 0;
 };
 

@@ -272,9 +272,10 @@ std::vector<std::uint8_t> encode_npy(const Array& array) {
   const std::size_t length = (start + header.size() + 1 + 63) / 64 * 64 - start;
   header.resize(length - 1, ' ');
   header += '\n';
-  Bytes out(magic.begin(), magic.end());
-  out.insert(out.end(), {1, 0, static_cast<std::uint8_t>(length & 255), static_cast<std::uint8_t>(length >> 8)});
-  out.insert(out.end(), header.begin(), header.end());
+  std::string start_text(magic);
+  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, length & 255, length >> 8}) start_text += static_cast<char>(byte);
+  header.insert(0, start_text);
+  Bytes out(header.begin(), header.end());
   out.insert(out.end(), array.data.begin(), array.data.end());
   return out;
 }
