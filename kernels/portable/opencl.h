@@ -226,7 +226,18 @@ OVERLOAD wide load_wide(__read_only image2d_t b, int stride, int x, int y) {
 }
 #endif
 
-#define atomic_add(b, i, v) (atomic_add)((b) + (i), v)
-#define atomic_min(b, i, v) (atomic_min)((b) + (i), v)
-#define atomic_max(b, i, v) (atomic_max)((b) + (i), v)
-#define atomic_compare_swap(b, i, expected, v) atomic_cmpxchg((b) + (i), expected, v)
+// The words take the names of OpenCL's functions, which may be macros themselves: reach those first.
+#define OCL_ATOMICS(type) \
+    OVERLOAD type ocl_atomic_add(volatile __global type* p, type v) { return atomic_add(p, v); } \
+    OVERLOAD type ocl_atomic_min(volatile __global type* p, type v) { return atomic_min(p, v); } \
+    OVERLOAD type ocl_atomic_max(volatile __global type* p, type v) { return atomic_max(p, v); } \
+    OVERLOAD type ocl_atomic_swap(volatile __global type* p, type e, type v) { return atomic_cmpxchg(p, e, v); }
+OCL_ATOMICS(int)
+OCL_ATOMICS(uint)
+#undef atomic_add
+#undef atomic_min
+#undef atomic_max
+#define atomic_add(b, i, v) ocl_atomic_add((b) + (i), v)
+#define atomic_min(b, i, v) ocl_atomic_min((b) + (i), v)
+#define atomic_max(b, i, v) ocl_atomic_max((b) + (i), v)
+#define atomic_compare_swap(b, i, expected, v) ocl_atomic_swap((b) + (i), expected, v)
