@@ -51,7 +51,7 @@ class Lint(unittest.TestCase):
             self.assertTrue(generate.lint(f"float {word} = 1.0f;"), word)
 
     def test_unportable(self):
-        for call in ("round(x)", "fma(a, b, c)", "native_exp(x)", "mod(a, b)", "inversesqrt(x)"):
+        for call in ("round(x)", "mix(a, b, t)", "dot(u, v)", "fma(a, b, c)", "native_exp(x)", "mod(a, b)", "inversesqrt(x)"):
             self.assertTrue(generate.lint(f"float y = {call};"), call)
 
     def test_includes(self):

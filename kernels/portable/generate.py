@@ -58,7 +58,7 @@ RESERVED = frozenset("""
     dvec2 dvec3 dvec4 mat2x2 mat3x3 mat4x4 main barrier
 """.split())
 # Functions whose result the languages define differently, or not at all.
-UNPORTABLE = re.compile(r"\b(round|rint|fmod|fma|mad|mod|rsqrt|inversesqrt|native_\w+|half_\w+|fast_\w+|fmin|fmax|isnormal)\s*\(")
+UNPORTABLE = re.compile(r"\b(round|rint|mix|dot|length|normalize|cross|fmod|fma|mad|mod|rsqrt|inversesqrt|native_\w+|half_\w+|fast_\w+|fmin|fmax|isnormal)\s*\(")
 
 
 def lint(text):

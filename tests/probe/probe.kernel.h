@@ -11,10 +11,10 @@ FN float arithmetic(CTX, int i, int which) {
     if (which == 0) return a + b * 3.0f - a / (b * b + 1.0f);
     if (which == 1) return sqrt(abs(a)) + floor(b * 4.0f);
     if (which == 2) return min(a, b) + 2.0f * max(a, b) + clamp(a, -0.5f, 0.5f);
-    if (which == 3) return dot(v, vec4(1.0f, 2.0f, 3.0f, 4.0f)) * 0.0f + v.x + v.y * 2.0f + v.z + v.w;
+    if (which == 3) return v.x + v.y * 2.0f + v.z + v.w;
     if (which == 4) return float(n.x / 3 + n.y * 2 - (n.x << 1)) + float((u.x >> 1) ^ (u.y & 15u));
     if (which == 5) return uintBitsToFloat((floatBitsToUint(a) & 0x7fffffffu) | 0x3f000000u);
-    if (which == 6) return mix(a, b, 0.25f);
+    if (which == 6) return a + 0.25f * (b - a);
     if (which == 7) return float(border_index(BORDER_MIRROR, n.x - 9, 5)) + 16.0f * float(border_index(BORDER_WRAP, n.y - 9, 5));
     if (which == 8) return isnan(a) || isinf(b) ? -1.0f : 1.0f;
     if (which == 9) return ceil(a * 3.0f) + sign(b);
