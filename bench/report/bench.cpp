@@ -1,0 +1,97 @@
+#include "bench/report/bench.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <luxel/gaussian_blur.h>
+
+#include "bench/report/guard.h"
+#include "bench/report/settings.h"
+#include "bench/report/stats.h"
+#include "bench/scene/images.h"
+
+namespace luxel::report {
+namespace {
+
+Result<Sample> time(cases::Run& run) {
+  Times warm;
+  for (int i = 0; i < 2; ++i)
+    if (Status status = run.go(1, &warm); !status) return status;
+  const int repeat = std::clamp(static_cast<int>(std::ceil(2 / std::max(warm.total, 1e-3))), 1, 1000);
+  std::vector<double> ms;
+  for (int i = 0; i < 11; ++i) {
+    Times times;
+    if (Status status = run.go(repeat, &times); !status) return status;
+    ms.push_back(times.total / repeat);
+  }
+  return summarise(ms);
+}
+
+}  // namespace
+
+Status fill(cases::Run& run, const BenchSetting& setting) {
+  for (const Resource& r : setting.plan.resources) {
+    if (std::find(setting.fill.begin(), setting.fill.end(), r.name) == setting.fill.end()) continue;
+    const std::size_t texels = r.kind == ResourceKind::buffer ? r.bytes / bytes_per_pixel(r.format)
+                                                              : static_cast<std::size_t>(r.extent[0]) * r.extent[1] * r.extent[2];
+    if (Status status = run.write(r.name, scene::noise(static_cast<int>(texels), 1, channels(r.format), 1)); !status) return status;
+  }
+  return {};
+}
+
+std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Profile& profile) {
+  std::vector<BenchSetting> settings;
+  const auto add = [&](const std::string& text, GaussianVariant variant, Format format, Input input, double sigma) {
+    GaussianBlurParams p;
+    p.width = width;
+    p.height = height;
+    p.sigma = sigma;
+    p.variant = variant;
+    p.format = format;
+    p.input = input;
+    const Result<Plan> made = plan(p, profile);
+    if (made) settings.push_back({fmt::format("{} {} {} sigma {}", text, name(format), input == Input::image ? "image" : "buffer", sigma),
+                                  made.value(), {"src"}});
+  };
+  for (const Format format : {Format::f32x1, Format::f32x2, Format::f32x4, Format::f16x4, Format::unorm8x4})
+    add("separable", GaussianVariant::separable, format, Input::buffer, 4);
+  add("separable", GaussianVariant::separable, Format::f32x4, Input::image, 4);
+  add("sampler", GaussianVariant::sampler, Format::f32x4, Input::image, 4);
+  add("separable", GaussianVariant::separable, Format::f32x4, Input::buffer, 1);
+  add("direct", GaussianVariant::direct, Format::f32x4, Input::buffer, 1);
+  add("separable", GaussianVariant::separable, Format::f32x4, Input::buffer, 12);
+  return settings;
+}
+
+int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
+                 const std::vector<std::pair<int, int>>& sizes) {
+  Settings wanted;
+  wanted.kernels = kernels;
+  Guard guard;
+  for (int i = 0; i < 10; ++i) guard.measure();
+  int status = 0;
+  fmt::print("{}\n{:<58} {:>9} {:>9} {:>9} {:>7} {:>9}\n", context->info().id, "setting", "ms", "q1", "q3", "GB/s", "GFLOP/s");
+  const auto line = [&](const std::string& where, const BenchSetting& setting) {
+    auto run = cases::Run::make(*context, setting.plan);
+    Status failed = run.status();
+    if (run) failed = fill(run.value(), setting);
+    const Result<Sample> ms = failed ? time(run.value()) : Result<Sample>(failed);
+    if (!ms) {
+      fmt::print("{:<58} {}\n", where, ms.status().message());
+      if (ms.status().code() != Code::unsupported) status = 1;
+      return;
+    }
+    const Sample& s = ms.value();
+    fmt::print("{:<58} {:>9.4g} {:>9.4g} {:>9.4g} {:>7.3g} {:>9.3g}{}\n", where, s.median, s.q1, s.q3, setting.plan.bytes / s.median * 1e-6,
+               setting.plan.flops / s.median * 1e-6, guard.quiet(guard.measure()) ? "" : "  (busy machine)");
+  };
+  for (const auto& [width, height] : sizes)
+    if (wanted.wants("gaussian_blur"))
+      for (const BenchSetting& setting : gaussian_blur_settings(width, height, context->profile()))
+        line(fmt::format("gaussian_blur {}x{} {}", width, height, setting.name), setting);
+  fmt::print("\n");
+  return status;
+}
+
+}  // namespace luxel::report

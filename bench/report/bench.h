@@ -1,0 +1,32 @@
+// Times of the main settings of each kernel on one device.
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <luxel/device.h>
+
+#include "tests/cases/run.h"
+
+namespace luxel::report {
+
+/// A plan with a name, as `luxel bench` and the microbenchmarks run it. Resources are left as they are made, but for what
+/// `fill` names: times of these kernels do not depend on the values, denormals and NaN apart.
+struct BenchSetting {
+  std::string name;
+  Plan plan;
+  std::vector<std::string> fill;  // resources that are filled with noise
+};
+
+/// Fills the resources that `setting.fill` names.
+Status fill(cases::Run& run, const BenchSetting& setting);
+
+/// Main settings of gaussian_blur at a size: formats, inputs and variants at sigma 4, 25 taps.
+std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Profile& profile);
+
+/// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
+int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
+                 const std::vector<std::pair<int, int>>& sizes);
+
+}  // namespace luxel::report

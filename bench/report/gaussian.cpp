@@ -1,0 +1,167 @@
+#include "bench/report/gaussian.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/truth/gaussian_truth.h"
+#include "tests/cases/compare.h"
+#include "tests/cases/gaussian_blur_support.h"
+#include "tests/cases/storage.h"
+
+namespace luxel::report {
+namespace {
+
+using cases::Run;
+using cases::Values;
+
+const char* name_of(Input input) { return input == Input::buffer ? "buffer" : input == Input::image ? "image" : "storage image"; }
+
+const char* name_of(BlurMetric metric) {
+  return metric == BlurMetric::largest ? "max |x - t| / max |input|" : "half L1 of the impulse response's error";
+}
+
+double largest_of(const Values& v) {
+  double most = 0;
+  for (const double x : v) most = std::max(most, std::fabs(x));
+  return most;
+}
+
+double distance(BlurMetric metric, double full_scale, const Values& a, const Values& b) {
+  return metric == BlurMetric::largest ? cases::max_difference(a, b) / full_scale : cases::half_l1(a, b);
+}
+
+struct Outcome {
+  std::vector<std::byte> bytes;
+  Values values;
+};
+
+Result<Outcome> outcome(Context& context, const GaussianBlurParams& p, const Values& src) {
+  Result<Run> run = Run::make(context, plan(p, context.profile()));
+  if (!run) return run.status();
+  if (Status status = run.value().write("src", src); !status) return status;
+  if (Status status = run.value().go(); !status) return status;
+  const auto bytes = run.value().bytes("dst");
+  if (!bytes) return bytes.status();
+  return Outcome{bytes.value(), cases::fetch(bytes.value(), p.format, context.real64())};
+}
+
+// The truth of the last setting: a grid walks through its radii with the truth unchanged.
+const Values& truth_of(const GaussianBlurParams& p, const Values& src) {
+  struct Kept { std::uint64_t key = 0; Values values; };
+  thread_local Kept kept;
+  const auto text = fmt::format("{} {} {} {} {}", p.width, p.height, channels(p.format), p.sigma, static_cast<int>(p.border));
+  std::vector<std::byte> bytes(text.size() + src.size() * sizeof(double));
+  std::memcpy(bytes.data(), text.data(), text.size());
+  std::memcpy(bytes.data() + text.size(), src.data(), src.size() * sizeof(double));
+  if (const std::uint64_t key = hash_bytes(bytes); key != kept.key)
+    kept = {key, truth::gaussian(src, p.width, p.height, channels(p.format), p.sigma, p.border)};
+  return kept.values;
+}
+
+bool stores_less_than_f32(Format format) { return format == Format::f16x4 || format == Format::unorm8x4; }
+
+Result<Oracle> compute_oracle(Session& session, const BlurSetting& s, const Values& src, double full_scale) {
+  const auto apart = [&](const Values& a, const Values& b) { return distance(s.metric, full_scale, a, b); };
+  const auto exact = outcome(session.cpu_double(), s.params, src);
+  if (!exact) return exact.status();
+  const auto stored = outcome(session.cpu_float(), s.params, src);
+  if (!stored) return stored.status();
+  Oracle oracle;
+  oracle.bits = hash_bytes(stored.value().bytes);
+  oracle.method = apart(exact.value().values, truth_of(s.params, src));
+  if (!stores_less_than_f32(s.params.format)) {
+    oracle.rounding = apart(stored.value().values, exact.value().values);
+    return oracle;
+  }
+  // The same arithmetic, stored in f32: what is left of the difference is the storage format's.
+  GaussianBlurParams wide = s.params;
+  wide.format = Format::f32x4;
+  wide.radius = effective_radius(s.params);
+  wide.drop_taps = false;
+  const auto unrounded = outcome(session.cpu_float(), wide, src);
+  if (!unrounded) return unrounded.status();
+  oracle.rounding = apart(unrounded.value().values, exact.value().values);
+  oracle.storage = apart(stored.value().values, unrounded.value().values);
+  return oracle;
+}
+
+Json options_of(const GaussianBlurParams& p) {
+  return {{"format", name(p.format)}, {"border", cases::name(p.border)}, {"input", name_of(p.input)},
+          {"difference", p.difference}, {"keep_alpha", p.keep_alpha}, {"drop_taps", p.drop_taps}};
+}
+
+}  // namespace
+
+std::string label(const BlurSetting& s) {
+  const GaussianBlurParams& p = s.params;
+  return fmt::format("gaussian_blur {} {} sigma {} {}{}{}{}{}{} on {}", cases::name(p.variant), name(p.format), p.sigma,
+                     s.k > 0 ? fmt::format("k {}", s.k) : fmt::format("R {}", p.radius),
+                     p.border == Border::clamp ? "" : fmt::format(" {}", cases::name(p.border)),
+                     p.input == Input::buffer || p.variant == GaussianVariant::sampler ? "" : " image", p.difference ? " difference" : "",
+                     p.keep_alpha ? " keep_alpha" : "", p.drop_taps ? " drop_taps" : "", s.scene->name);
+}
+
+GaussianBlurParams params_for(const Scene& scene, double sigma, double k, Format format, GaussianVariant variant) {
+  return cases::blur_params(scene.width, scene.height, sigma, static_cast<int>(std::ceil(k * sigma)), format, Border::clamp, variant);
+}
+
+double blur_error(const BlurSetting& s, const Values& source, const Values& values) {
+  return distance(s.metric, largest_of(source), values, truth_of(s.params, source));
+}
+
+Status measure_blur(Session& session, const BlurSetting& s) {
+  const GaussianBlurParams& p = s.params;
+  const Values src = in_format(*s.scene, p.format);
+  const double full_scale = largest_of(src);
+  const std::string size = size_text(p.width, p.height), where = label(s), metric = name_of(s.metric);
+
+  Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
+  if (!made) return made.status();
+  Run& run = made.value();
+  if (Status status = run.write("src", src); !status) return status;
+  const Result<Sample> ms = session.time(run, where);
+  if (!ms) return ms.status();
+  const auto bytes = run.bytes("dst");
+  if (!bytes) return bytes.status();
+
+  const std::string key = where + " " + size + " " + name_of(s.metric);
+  const Result<Oracle> oracle = session.oracle(key, [&] { return compute_oracle(session, s, src, full_scale); });
+  if (!oracle) return oracle.status();
+  const Oracle& o = oracle.value();
+  double device = 0;
+  const bool equal = hash_bytes(bytes.value()) == o.bits;
+  if (!equal) {
+    const auto expected = outcome(session.cpu_float(), p, src);
+    if (!expected) return expected.status();
+    device = distance(s.metric, full_scale, cases::fetch(bytes.value(), p.format, session.context().real64()), expected.value().values);
+  }
+  if (p.variant != GaussianVariant::sampler) session.promise_bits("gaussian_blur", equal, where);
+
+  session.row("frontier",
+              {{"kernel", "gaussian_blur"}, {"variant", cases::name(p.variant)}, {"device", session.device()}, {"scene", s.scene->name},
+               {"size", size}, {"options", options_of(p)}, {"knobs", {{"sigma", p.sigma}, {"k", s.k}, {"radius", effective_radius(p)}}},
+               {"time_ms", {{"build", nullptr}, {"update", nullptr}, {"shade", to_json(ms.value())}}},
+               {"error", {{"metric", metric}, {"rounding", o.rounding}, {"storage", o.storage}, {"device", device}, {"method", o.method},
+                          {"discretization", nullptr}, {"model", nullptr}, {"stderr", nullptr}}},
+               {"bytes", run.plan().bytes}, {"flops", run.plan().flops}, {"memory_bytes", run.memory_bytes()}, {"on_frontier", nullptr},
+               {"group", fmt::format("gaussian_blur|{}|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name, size, metric, name(p.format),
+                                     cases::name(p.border), p.sigma)}});
+  return {};
+}
+
+Result<Session::Timed> timed_blur(Session& session, const BlurSetting& s) {
+  Result<Run> made = Run::make(session.context(), plan(s.params, session.context().profile()));
+  if (!made) return made.status();
+  const auto run = std::make_shared<Run>(std::move(made).value());
+  if (Status status = run->write("src", in_format(*s.scene, s.params.format)); !status) return status;
+  if (Status status = run->go(); !status) return status;
+  return Session::Timed([run]() -> Result<double> {
+    Times times;
+    if (Status status = run->go(1, &times); !status) return status;
+    return times.total;
+  });
+}
+
+}  // namespace luxel::report

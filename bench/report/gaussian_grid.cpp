@@ -1,0 +1,122 @@
+// The frontier of gaussian_blur: which settings are measured on which scenes.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/report/gaussian.h"
+#include "bench/report/limits.h"
+#include "bench/scene/images.h"
+#include "tests/cases/gaussian_blur_support.h"
+
+namespace luxel::report {
+namespace {
+
+using Shared = std::shared_ptr<const Scene>;
+
+class Grid {
+ public:
+  explicit Grid(Session& session) : session_(session), quick_(session.settings().quick) {}
+
+  void add(BlurSetting s) {
+    jobs_.push_back({label(s), [&session = session_, s] { return measure_blur(session, s); }});
+  }
+
+  void add(const Shared& scene, GaussianBlurParams p, double k, BlurMetric metric = BlurMetric::largest) { add({scene, p, k, metric}); }
+
+  // Every way to blur by one sigma, from coarse to fine.
+  void ways(const Shared& scene, double sigma, const std::vector<double>& ks, Format format, BlurMetric metric = BlurMetric::largest) {
+    for (const double k : ks) {
+      const GaussianBlurParams separable = params_for(*scene, sigma, k, format);
+      add(scene, separable, k, metric);
+      add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
+      GaussianBlurParams image = separable;
+      image.input = Input::image;
+      if (!quick_) add(scene, image, k, metric);
+      const int most = session_.is_cpu() ? (quick_ ? 4 : 10) : (quick_ ? 6 : 24);
+      if (separable.radius <= most) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::direct), k, metric);
+    }
+  }
+
+  void copies(const Scene& scene) {
+    const std::string size = size_text(scene.width, scene.height);
+    if (std::find(copied_.begin(), copied_.end(), size) != copied_.end()) return;
+    copied_.push_back(size);
+    for (const int bytes : {4, 8, 16}) jobs_.push_back(copy_job(session_, scene.width, scene.height, bytes));
+  }
+
+  std::vector<Job> take() { return std::move(jobs_); }
+
+ private:
+  Session& session_;
+  bool quick_;
+  std::vector<Job> jobs_;
+  std::vector<std::string> copied_;
+};
+
+// An image just large enough for the truth's kernel: nothing of the response is cut off.
+Shared impulse_for(double sigma) {
+  const int reach = static_cast<int>(std::ceil(8.3 * sigma)) + 1, side = 2 * reach + 1;
+  return std::make_shared<Scene>(Scene{"impulse (generated)", side, side, 1, scene::impulse(side, side, 1, reach, reach)});
+}
+
+}  // namespace
+
+std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& files) {
+  const bool quick = session.settings().quick;
+  const std::vector<double> sigmas = quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 16, 30};
+  const std::vector<double> ks = quick ? std::vector<double>{1, 2, 3, 4, 6} : std::vector<double>{1, 2, 3, 4, 5, 6};
+  const std::vector<double> some_ks = quick ? std::vector<double>{3} : std::vector<double>{1, 2, 3, 4, 5, 6};
+  Grid grid(session);
+  const Shared small = std::make_shared<Scene>(landscape(quick ? 384 : 512, quick ? 384 : 512));
+  const Shared main = files.empty() ? small : files.front();
+
+  for (const double sigma : sigmas) grid.ways(main, sigma, ks, Format::f32x4);
+  grid.copies(*main);
+  for (std::size_t i = files.empty() ? files.size() : 1; i < files.size(); ++i)
+    for (const double sigma : quick ? std::vector<double>{4} : std::vector<double>{2, 8})
+      for (const double k : some_ks) grid.add(files[i], params_for(*files[i], sigma, k), k);
+  for (const double sigma : sigmas) {
+    const Shared impulse = impulse_for(sigma);
+    for (const double k : ks) {
+      grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
+      if (!quick) grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1, GaussianVariant::sampler), k, BlurMetric::half_l1);
+    }
+  }
+  const Shared edge = std::make_shared<Scene>(Scene{"step (generated)", 256, 64, 1, scene::step_edge(256, 64, 1, 128)});
+  for (const double k : some_ks) grid.add(edge, params_for(*edge, 4, k, Format::f32x1), k);
+
+  // Formats, borders and options at one sigma.
+  for (const Format format : cases::pixel_formats)
+    for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
+      for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
+        grid.add(small, params_for(*small, 4, k, format, variant), k);
+  for (const Border border : {Border::mirror, Border::wrap, Border::zero}) {
+    GaussianBlurParams p = params_for(*small, 4, 3);
+    p.border = border;
+    grid.add(small, p, 3);
+  }
+  for (bool GaussianBlurParams::*const option : {&GaussianBlurParams::difference, &GaussianBlurParams::keep_alpha}) {
+    GaussianBlurParams p = params_for(*small, 4, 3);
+    p.*option = true;
+    grid.add(small, p, 3);
+  }
+  for (const Format format : {Format::f16x4, Format::unorm8x4}) {
+    GaussianBlurParams p = params_for(*small, 4, 6, format);
+    grid.add(small, p, 6);
+    p.drop_taps = true;
+    grid.add(small, p, 6);
+  }
+  grid.copies(*small);
+
+  // The size that the peers are compared at: 25 taps.
+  const Shared full_hd = std::make_shared<Scene>(landscape(1920, 1080));
+  for (const Format format : {Format::f32x4, Format::f32x1, Format::f16x4, Format::unorm8x4})
+    grid.add(full_hd, params_for(*full_hd, 4, 3, format), 3);
+  GaussianBlurParams image = params_for(*full_hd, 4, 3);
+  image.input = Input::image;
+  grid.add(full_hd, image, 3);
+  grid.add(full_hd, params_for(*full_hd, 4, 3, Format::f32x4, GaussianVariant::sampler), 3);
+  grid.copies(*full_hd);
+  return grid.take();
+}
+
+}  // namespace luxel::report

@@ -1,0 +1,19 @@
+// What the device's driver can do at most, through kernels of the same dialect: copy, triad, arithmetic.
+#pragma once
+#include "bench/report/session.h"
+
+namespace luxel::report {
+
+/// The arithmetic and triad jobs of a device. Adds to `devices[].limits`.
+std::vector<Job> limit_jobs(Session& session);
+
+/// A copy of `width` x `height` pixels of `bytes` 4, 8 or 16, by the fastest of the forms that read a buffer.
+Job copy_job(Session& session, int width, int height, int bytes);
+
+/// Plan of a copy; `texels`: read through a texel buffer. Resources src and dst. Errors: invalid_argument.
+Result<Plan> copy_plan(int width, int height, int bytes, bool texels, const Profile& profile);
+
+/// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
+Json machine_limits(bool quick);
+
+}  // namespace luxel::report

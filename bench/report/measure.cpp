@@ -1,0 +1,51 @@
+#include "bench/report/measure.h"
+
+#include <csignal>
+
+#include "bench/report/child.h"
+#include "bench/report/gaussian.h"
+#include "bench/report/limits.h"
+#include "bench/report/pictures.h"
+#include "bench/report/session.h"
+#include "bench/report/stability.h"
+#include "tests/cases/gaussian_blur_cases.h"
+
+namespace luxel::report {
+namespace {
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T> more) {
+  for (T& t : more) to.push_back(std::move(t));
+}
+
+}  // namespace
+
+int measure_device(const Settings& settings, const std::string& device, double best_guard, bool first) {
+  std::signal(SIGPIPE, SIG_IGN);
+  Result<std::shared_ptr<Context>> opened = Context::open(device);
+  if (!opened) {
+    std::fprintf(stderr, "luxel: %s\n", opened.status().message().c_str());
+    return 1;
+  }
+  Session session(opened.value(), settings, child_fd, best_guard);
+
+  std::vector<std::string> missing;
+  std::vector<std::shared_ptr<const Scene>> files;
+  for (Scene& scene : image_files(settings, missing)) files.push_back(std::make_shared<Scene>(std::move(scene)));
+  for (const std::string& line : missing) session.note("skipped", line);
+
+  std::vector<Job> jobs = limit_jobs(session);
+  if (settings.wants("gaussian_blur")) {
+    append(jobs, gaussian_grid(session, files));
+    append(jobs, gaussian_left_out(session));
+    append(jobs, gaussian_reproduction(session));
+    append(jobs, gaussian_peers(session));
+    append(jobs, stability_jobs(session, cases::gaussian_blur_cases()));
+    if (first) append(jobs, gaussian_pictures(session, files));
+  }
+  session.run(jobs);
+  session.emit_promises();
+  return 0;
+}
+
+}  // namespace luxel::report

@@ -1,0 +1,145 @@
+#include "bench/report/report.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "bench/report/child.h"
+#include "bench/report/limits.h"
+#include "bench/report/machine.h"
+#include "bench/report/progress.h"
+#include "bench/report/schema.h"
+#include "bench/report/table.h"
+
+namespace luxel::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A device that says nothing for so long hangs; compiling and the slowest single row take less.
+constexpr int silence_s = 300;
+
+int misuse(const std::string& message) {
+  fmt::print(stderr, "luxel: {}\n", message);
+  return 2;
+}
+
+std::vector<std::string> child_arguments(const Settings& s, const DeviceInfo& device, double best, bool first) {
+  std::vector<std::string> argv{fs::read_symlink("/proc/self/exe").string(), "report", "--measure", std::to_string(device.index),
+                                "--guard-best", fmt::format("{}", best), "-o", s.out};
+  if (s.quick) argv.push_back("--quick");
+  if (first) argv.push_back("--first");
+  for (const std::string& kernel : s.kernels) argv.insert(argv.end(), {"--kernel", kernel});
+  for (const std::string& image : s.images) argv.insert(argv.end(), {"--image", image});
+  return argv;
+}
+
+// Drivers and luxel compile into folders of the report's own, so that every first use is one.
+std::vector<std::string> child_environment(const Settings& s) {
+  const std::string cache = fs::absolute(s.out).string() + "/cache";
+  return {"LUXEL_CACHE=" + cache + "/luxel", "POCL_CACHE_DIR=" + cache + "/pocl", "MESA_SHADER_CACHE_DIR=" + cache + "/mesa",
+          "OPENCV_OPENCL_CACHE_ENABLE=0"};
+}
+
+// OpenCV's OpenCL path is for comparison on the same device, which it is told by type.
+std::string opencv_device(const DeviceInfo& device) {
+  return std::string("OPENCV_OPENCL_DEVICE=:") + (device.profile == "pocl" ? "CPU" : "GPU") + ":";
+}
+
+void measure(const Settings& s, const DeviceInfo& device, bool first, Gathered& gathered, Progress& progress, std::ofstream& rows) {
+  gathered.devices.push_back({{"id", device.id}, {"name", device.name}, {"driver", device.driver}, {"profile", device.profile},
+                              {"died", false}, {"problems", Json::array()}, {"limits", Json::array()}, {"first_use", Json::array()}});
+  progress.begin(device.id);
+  std::vector<std::string> environment = child_environment(s);
+  environment.push_back(opencv_device(device));
+  const std::string log = fmt::format("{}/device_{}.log", s.out, device.index);
+  const Ended ended = run_child(child_arguments(s, device, gathered.best_guard, first), environment, log, silence_s,
+                                [&](const std::string& line) {
+                                  if (const std::string row = take_line(gathered, line); !row.empty()) rows << row << std::endl;
+                                  progress.update(gathered.last_done, gathered.last_of, gathered.last_label);
+                                });
+  if (ended.died() || ended.status != 0) {
+    const std::string what = fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
+                                         gathered.last_label.empty() ? "its start" : gathered.last_label, log);
+    gathered.devices.back()["died"] = true;
+    gathered.devices.back()["problems"].push_back(what);
+    progress.line(what);
+  }
+  gathered.last_label.clear();
+}
+
+Status write_file(const std::string& path, const std::string& text) {
+  const std::string part = path + ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(part, path, error);
+  if (!file || error) return {Code::io, path + " could not be written; check the folder and the space on its disk"};
+  return {};
+}
+
+// The page and the plots are made by Python; without it the numbers stand all the same.
+void render(const std::string& out) {
+  const std::string script = LUXEL_SOURCE_DIR "/python/report/render.py", log = out + "/render.log";
+  const Ended ended = run_child({"/usr/bin/env", "python3", script, out}, {}, log, 600, [](const std::string&) {});
+  if (!ended.died() && ended.status == 0) return;
+  std::string last, line;
+  for (std::ifstream file(log); std::getline(file, line);)
+    if (!line.empty()) last = line;
+  fmt::print(stderr, "luxel: no page was made: {}\n",
+             ended.started && !last.empty() ? last : "python3 is missing (Debian: apt-get install python3-matplotlib)");
+}
+
+}  // namespace
+
+int run_report(const Settings& settings) {
+  for (const std::string& kernel : settings.kernels)
+    if (std::find(measured_kernels().begin(), measured_kernels().end(), kernel) == measured_kernels().end())
+      return misuse(fmt::format("--kernel is {}; expected one of: {}", kernel, fmt::join(measured_kernels(), ", ")));
+  for (const std::string& image : settings.images)
+    if (!fs::is_regular_file(image)) return misuse(fmt::format("--image {} is not a file; expected an EXR, HDR, PNG or NPY file", image));
+  std::vector<std::string> problems;
+  const auto chosen = choose_devices(devices(&problems), settings.devices);
+  if (!chosen) return misuse(chosen.status().message());
+  std::error_code error;
+  fs::create_directories(settings.out + "/pictures", error);
+  if (!error) fs::remove_all(settings.out + "/cache", error);
+  if (!error) fs::remove(settings.out + "/oracles.jsonl", error);
+  std::ofstream rows(settings.out + "/rows.jsonl", std::ios::trunc);
+  if (error || !rows) return misuse(fmt::format("-o {}: cannot write there; give a folder that can be made or written", settings.out));
+
+  Progress progress;
+  if (settings.devices.empty())
+    for (const std::string& problem : problems) progress.line(problem);
+  Json about = machine();
+  about["quick"] = settings.quick;
+  about["limits"] = machine_limits(settings.quick);
+  Gathered gathered;
+  gathered.best_guard = about["limits"].back()["rate"].get<double>();
+  bool first = true;
+  for (const DeviceInfo& device : chosen.value()) {
+    measure(settings, device, first, gathered, progress, rows);
+    first = false;
+  }
+  progress.end();
+  fs::remove_all(settings.out + "/cache", error);
+  fs::remove(settings.out + "/oracles.jsonl", error);
+  for (const std::string& line : gathered.skipped) progress.line("skipped: " + line);
+
+  const Json pictures = gathered.pictures;
+  const Json report = assemble(std::move(gathered), std::move(about));
+  int status = exit_status_of(report);
+  for (const std::string& defect : check_schema(report)) {
+    fmt::print(stderr, "luxel: the report does not have its shape: {}; this is a defect of luxel: please report it\n", defect);
+    status = 1;
+  }
+  for (const auto& [file, json] : {std::pair{"report.json", &report}, {"pictures.json", &pictures}})
+    if (Status written = write_file(settings.out + "/" + file, json->dump(1) + "\n"); !written) return misuse(written.message());
+  render(settings.out);
+  print_tables(report, settings.out);
+  return status;
+}
+
+}  // namespace luxel::report

@@ -1,0 +1,43 @@
+// The report: devices measured one after the other, each in a child process; rows gathered, compared, written and shown.
+#pragma once
+#include <string>
+#include <vector>
+
+#include <luxel/device.h>
+
+#include "bench/report/json.h"
+#include "bench/report/settings.h"
+
+namespace luxel::report {
+
+/// Measures, writes DIR/report.json, pictures and page, prints tables. Returns the program's exit status: 0, 1 (a promise
+/// is broken or a device died), 2 (wrong use; one line on stderr).
+int run_report(const Settings& settings);
+
+/// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where `names`
+/// is empty. Errors: missing_driver for a name that no device has; invalid_argument for the execution in double, which is
+/// what every row is compared with.
+Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names);
+
+/// Rows of all sections as they come from the children.
+struct Gathered {
+  Json devices = Json::array(), flagged = Json::array(), pictures = Json::array();
+  std::vector<Json> frontier;
+  Json stability = Json::array(), left_out = Json::array(), peers = Json::array(), reproduction = Json::array();
+  std::vector<std::string> skipped;  // files that were not there
+  double best_guard = 0;
+  int last_done = 0, last_of = 0;
+  std::string last_label;
+};
+
+/// Takes in one line of a child that measures devices.back(). Returns the row's text for rows.jsonl, empty where the line
+/// is none; a line that is damaged (a child may die in the middle of one) counts as none.
+std::string take_line(Gathered& gathered, const std::string& line);
+
+/// The whole report; marks the frontier.
+Json assemble(Gathered gathered, Json machine);
+
+/// 1 when a stability row failed or a device died, else 0.
+int exit_status_of(const Json& report);
+
+}  // namespace luxel::report

@@ -1,0 +1,170 @@
+#include "bench/report/session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace luxel::report {
+
+std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
+  std::uint64_t value = 0xcbf29ce484222325ull;
+  for (const std::byte b : bytes) value = (value ^ static_cast<std::uint64_t>(b)) * 0x100000001b3ull;
+  return value;
+}
+
+Session::Session(std::shared_ptr<Context> context, Settings settings, int rows, double best_guard)
+    : context_(std::move(context)), settings_(std::move(settings)), rows_(rows), guard_(best_guard) {
+  load_oracles();
+}
+
+namespace {
+
+// The C++ executions need no driver; they always open.
+std::shared_ptr<Context> open_cpu(const char* which) { return Context::open(which).value(); }
+
+}  // namespace
+
+Context& Session::cpu_float() {
+  if (!cpu_float_) cpu_float_ = open_cpu("cpu:float");
+  return *cpu_float_;
+}
+
+Context& Session::cpu_double() {
+  if (!cpu_double_) cpu_double_ = open_cpu("cpu:double");
+  return *cpu_double_;
+}
+
+void Session::send(const Json& message) {
+  const std::string line = message.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  std::size_t at = 0;
+  while (at < line.size()) {
+    const ssize_t n = ::write(rows_, line.data() + at, line.size() - at);
+    if (n <= 0) return;  // the parent is gone
+    at += static_cast<std::size_t>(n);
+  }
+}
+
+void Session::row(const std::string& section, Json row) { send({{"section", section}, {"row", std::move(row)}}); }
+
+void Session::note(const std::string& list, Json entry) { send({{"note", list}, {"entry", std::move(entry)}}); }
+
+void Session::progress(std::size_t done, std::size_t of, const std::string& label) {
+  send({{"done", done}, {"of", of}, {"label", label}, {"guard", guard_.best()}});
+}
+
+void Session::run(const std::vector<Job>& jobs) {
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    progress(i, jobs.size(), jobs[i].label);
+    const Status status = jobs[i].run();
+    if (status) continue;
+    note("problems", fmt::format("{}: {}", jobs[i].label, status.message()));
+    if (status.code() == Code::unsupported) continue;
+    row("stability", {{"kernel", jobs[i].label.substr(0, jobs[i].label.find(' '))}, {"case", "runs: " + jobs[i].label},
+                      {"device", device()}, {"promise", "every setting of the report runs: " + status.message()}, {"bound", 0},
+                      {"measured", 1}, {"pass", false}});
+  }
+  progress(jobs.size(), jobs.size(), "");
+}
+
+template <class Take>
+auto Session::guarded(const Take& take, const std::string& label) -> decltype(take()) {
+  ++timed_;
+  // Where the machine is busy all the time, taking rows again does not help: it is bounded.
+  const auto may_retake = [&] { return retaken_ < std::max(20, timed_ / 4); };
+  double lowest = 0;
+  for (int attempt = 0;; ++attempt) {
+    const double before = guard_.measure();
+    auto taken = take();
+    lowest = std::min(before, guard_.measure());
+    if (!taken.ok() || guard_.quiet(lowest)) return taken;
+    if (attempt == 3 || !may_retake()) {
+      note("busy", {{"label", label}, {"gflops", lowest}, {"best", guard_.best()}});
+      return taken;
+    }
+    ++retaken_;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50 << attempt));
+  }
+}
+
+Result<Sample> Session::time(cases::Run& run, const std::string& label) {
+  Times first, second;
+  if (Status status = run.go(1, &first); !status) return status;
+  if (Status status = run.go(1, &second); !status) return status;
+  note("first_use", {{"label", label}, {"compile_ms", run.compile_ms()}, {"first_run_ms", first.total}});
+  const double one = std::max(1e-3, std::min(first.total, second.total));
+  const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 400;
+  const int repeat = std::clamp(static_cast<int>(std::ceil(sample_ms / one)), 1, 1000);
+  const int n = std::clamp(static_cast<int>(budget_ms / (one * repeat)), 5, settings_.quick ? 9 : 21);
+  return guarded([&]() -> Result<Sample> {
+    std::vector<double> ms;
+    for (int i = 0; i < n; ++i) {
+      Times times;
+      if (Status status = run.go(repeat, &times); !status) return status;
+      ms.push_back(times.total / repeat);
+    }
+    return summarise(std::move(ms));
+  }, label);
+}
+
+Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const std::string& label) {
+  for (const Timed* warm : {&a, &b, &a, &b})
+    if (const Result<double> ms = (*warm)(); !ms) return ms.status();
+  const int n = settings_.quick ? 9 : 25;
+  return guarded([&]() -> Result<Pair> {
+    Pair pair;
+    for (int i = 0; i < n; ++i) {
+      const Result<double> first = a();
+      if (!first) return first.status();
+      const Result<double> second = b();
+      if (!second) return second.status();
+      pair.a.push_back(first.value());
+      pair.b.push_back(second.value());
+    }
+    return pair;
+  }, label);
+}
+
+void Session::load_oracles() {
+  std::ifstream file(settings_.out + "/oracles.jsonl");
+  for (std::string line; std::getline(file, line);) {
+    const Json j = Json::parse(line, nullptr, false);
+    if (!j.is_object()) continue;
+    const auto number = [&](const char* field) { return j.at(field).is_number() ? j.at(field).get<double>() : NAN; };
+    oracles_[j.at("key").get<std::string>()] = {j.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"),
+                                                number("method")};
+  }
+}
+
+Result<Oracle> Session::oracle(const std::string& key, const std::function<Result<Oracle>()>& compute) {
+  if (const auto found = oracles_.find(key); found != oracles_.end()) return found->second;
+  const Result<Oracle> made = compute();
+  if (!made) return made;
+  const Oracle& o = oracles_[key] = made.value();
+  std::ofstream(settings_.out + "/oracles.jsonl", std::ios::app)
+      << Json({{"key", key}, {"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}}).dump() + "\n";
+  return made;
+}
+
+void Session::promise_bits(const std::string& kernel, bool equal, const std::string& label) {
+  Bits& bits = bits_[kernel];
+  bits.checked += 1;
+  if (equal) return;
+  bits.different += 1;
+  if (bits.first.empty()) bits.first = label;
+}
+
+void Session::emit_promises() {
+  for (const auto& [kernel, bits] : bits_)
+    row("stability", {{"kernel", kernel}, {"case", "bits of the whole grid"}, {"device", device()},
+                      {"promise", fmt::format("every result of the frontier's {:.0f} settings that are free of samplers has the bits of "
+                                              "the C++ execution in float (settings that differ{})", bits.checked,
+                                              bits.first.empty() ? "" : "; first: " + bits.first)},
+                      {"bound", 0}, {"measured", bits.different}, {"pass", bits.different == 0}});
+}
+
+}  // namespace luxel::report

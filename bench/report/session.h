@@ -1,0 +1,89 @@
+// Measuring on one device, in the child process: rows handed to the parent, times with their guard, errors with their oracle.
+#pragma once
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <luxel/device.h>
+
+#include "bench/report/guard.h"
+#include "bench/report/json.h"
+#include "bench/report/settings.h"
+#include "bench/report/stats.h"
+#include "tests/cases/run.h"
+
+namespace luxel::report {
+
+/// One thing that is measured.
+struct Job {
+  std::string label;
+  std::function<Status()> run;
+};
+
+/// Errors that do not depend on the device, and what the C++ execution in float gave.
+struct Oracle {
+  std::uint64_t bits = 0;  // hash of the stored result of the C++ execution in float
+  double rounding = 0;     // C++ float against C++ double
+  double storage = 0;      // rounding by the storage format alone
+  double method = 0;       // C++ double against the truth
+};
+
+/// FNV-1a over bytes.
+std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
+
+class Session {
+ public:
+  /// `rows`: file descriptor that takes a JSON object a line.
+  Session(std::shared_ptr<Context> context, Settings settings, int rows, double best_guard);
+
+  Context& context() { return *context_; }
+  Context& cpu_float();
+  Context& cpu_double();
+  const Settings& settings() const { return settings_; }
+  const std::string& device() const { return context_->info().id; }
+  bool is_cpu() const { return context_->info().api == Api::cpu; }
+
+  /// A row of a section of the report.
+  void row(const std::string& section, Json row);
+  /// A line of `devices[].limits`, `first_use` or `problems` of this device.
+  void note(const std::string& list, Json entry);
+  void progress(std::size_t done, std::size_t of, const std::string& label);
+
+  /// Runs jobs in order. A job that fails becomes a problem of the device, and unless the code is `unsupported` (a device
+  /// may lack a feature) a broken promise.
+  void run(const std::vector<Job>& jobs);
+
+  /// Milliseconds of one run, warm, several runs a sample where one is short. Taken again while the machine is busy;
+  /// flagged in the report where that did not help. `label` names it there. The first run's time is kept in `first_use`.
+  Result<Sample> time(cases::Run& run, const std::string& label);
+  /// a and b in turn: a, b, a, b ... Each returns the milliseconds of one run.
+  using Timed = std::function<Result<double>()>;
+  struct Pair { std::vector<double> a, b; };
+  Result<Pair> interleave(const Timed& a, const Timed& b, const std::string& label);
+
+  /// The oracle of a setting, computed once in a report and shared by its devices through a file.
+  Result<Oracle> oracle(const std::string& key, const std::function<Result<Oracle>()>& compute);
+
+  /// Counts, for the promise that holds for the whole grid: results whose bits had to equal those of C++ float.
+  void promise_bits(const std::string& kernel, bool equal, const std::string& label);
+  void emit_promises();
+
+ private:
+  void send(const Json& message);
+  void load_oracles();
+  template <class Take>
+  auto guarded(const Take& take, const std::string& label) -> decltype(take());
+
+  std::shared_ptr<Context> context_, cpu_float_, cpu_double_;
+  Settings settings_;
+  int rows_;
+  Guard guard_;
+  int timed_ = 0, retaken_ = 0;
+  std::map<std::string, Oracle> oracles_;
+  struct Bits { double checked = 0, different = 0; std::string first; };
+  std::map<std::string, Bits> bits_;
+};
+
+}  // namespace luxel::report

@@ -1,0 +1,22 @@
+// Medians and quartiles of times.
+#pragma once
+#include <vector>
+
+#include "bench/report/json.h"
+
+namespace luxel::report {
+
+struct Sample {
+  double median = 0, q1 = 0, q3 = 0;
+  int n = 0;
+};
+
+/// Quartiles by linear interpolation between order statistics. An empty list gives zeros.
+Sample summarise(std::vector<double> values);
+
+Json to_json(const Sample& sample);
+
+/// a[i] / b[i].
+std::vector<double> ratios(const std::vector<double>& a, const std::vector<double>& b);
+
+}  // namespace luxel::report

@@ -1,0 +1,116 @@
+"""Error against run time, a panel a device; every point says its setting when the pointer is on it."""
+import html
+import io
+import re
+
+import matplotlib
+
+matplotlib.use("svg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+import rows
+
+plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "luxel", "font.family": "sans-serif", "font.size": 9,
+                     "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.axisbelow": True,
+                     "axes.spines.top": False, "axes.spines.right": False})
+
+MARKERS = "osD^vPX*<>"
+FLOOR = 1e-9  # where errors of zero are drawn
+
+
+def draw(report, folder):
+    """[(kernel, scene, metric, number of points, svg)]; also writes each as SVG and PNG into `folder`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = []
+    for kernel in dict.fromkeys(row["kernel"] for row in report["frontier"]):
+        mine = [row for row in report["frontier"] if row["kernel"] == kernel and rows.total_time(row) > 0]
+        views = {}
+        for row in mine:
+            views.setdefault((row["scene"], row["size"], row["error"]["metric"]), []).append(row)
+        for index, (view, points) in enumerate(sorted(views.items(), key=lambda item: -len(item[1]))):
+            devices = list(dict.fromkeys(row["device"] for row in points))
+            if len(points) < 3 * len(devices):
+                continue
+            scene, size, metric = view
+            figure = panels(points, devices, f"{kernel} on {scene}, {size}", metric)
+            name = f"{kernel}_{index}"
+            figure.savefig(folder / f"{name}.png", dpi=110, bbox_inches="tight")
+            svg = titled(figure, points)
+            (folder / f"{name}.svg").write_text(svg)
+            plt.close(figure)
+            figures.append((kernel, f"{scene}, {size}", metric, len(points), svg))
+    return figures
+
+
+def colour_key(row):
+    """What the colours of a panel tell apart: what is asked for, not how it is done."""
+    if "sigma" in row["knobs"]:
+        return f"σ {rows.number(row['knobs']['sigma'])}"
+    return row["options"].get("format", row["variant"])
+
+
+def natural(text):
+    return [float(part) if index % 2 else part for index, part in enumerate(re.split(r"(\d+(?:\.\d+)?)", text))]
+
+
+def panels(points, devices, title, metric):
+    keys = sorted(dict.fromkeys(map(colour_key, points)), key=natural)
+    colours = dict(zip(keys, plt.cm.viridis(np.linspace(0.0, 0.9, max(len(keys), 1)))))
+    kinds = list(dict.fromkeys(kind(row) for row in points))
+    markers = {k: MARKERS[i % len(MARKERS)] for i, k in enumerate(kinds)}
+    figure, axes = plt.subplots(1, len(devices), figsize=(5.2 * len(devices), 4.4), sharey=True, squeeze=False)
+    for axis, device in zip(axes[0], devices):
+        panel(axis, [(i, row) for i, row in enumerate(points) if row["device"] == device], colours, markers)
+        axis.set_title(device if len(device) < 46 else device[:44] + "…", fontsize=9)
+        axis.set_xlabel("time, ms (bar: first to third quartile)")
+    axes[0][0].set_ylabel(metric)
+    handles = [plt.Line2D([], [], color=colours[key], lw=3, label=key) for key in keys]
+    handles += [plt.Line2D([], [], color="#444444", marker=markers[k], ls="", ms=6, label=k) for k in kinds]
+    handles += [plt.Line2D([], [], color="#444444", marker="o", ls="", ms=6, mfc="none", label="not on the frontier")]
+    figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=6, frameon=False)
+    figure.suptitle(title, y=1.0)
+    figure.tight_layout()
+    return figure
+
+
+def kind(row):
+    words = [row["variant"]]
+    if row["options"].get("input") == "image" and row["variant"] != "sampler":
+        words.append("image")
+    return " ".join(words)
+
+
+def panel(axis, numbered, colours, markers):
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    frontiers = {}
+    for index, row in numbered:
+        time, error = rows.total_time(row), max(rows.total_error(row), FLOOR)
+        colour = colours[colour_key(row)]
+        on = row["on_frontier"]
+        axis.plot([rows.total_time(row, "q1"), rows.total_time(row, "q3")], [error, error], color=colour, lw=1, alpha=0.6)
+        axis.plot([time], [error], marker=markers[kind(row)], ms=6 if on else 4.5, mfc=colour if on else "none", mec=colour,
+                  ls="", gid=f"point{index}", zorder=3)
+        if on:
+            frontiers.setdefault((colour_key(row), rows.options({"options": {k: v for k, v in row["options"].items()
+                                                                             if k in ("format", "border")}})), []).append((time, error))
+    for (key, _), points in frontiers.items():
+        points.sort()
+        axis.plot(*zip(*points), color=colours[key], lw=0.9, alpha=0.7, zorder=2)
+
+
+def titled(figure, points):
+    """SVG text in which each point has a <title> with its setting, time and error."""
+    text = io.StringIO()
+    figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None})
+    svg = re.sub(r"^.*?(?=<svg )", "", text.getvalue(), flags=re.DOTALL)
+
+    def title(match):
+        row = points[int(match.group(1))]
+        parts = ", ".join(f"{part} {rows.number(row['error'][part])}" for part in rows.PARTS if row["error"][part] is not None)
+        label = (f"{rows.setting(row)}\n{rows.number(rows.total_time(row), 4)} ms, error {rows.number(rows.total_error(row))}"
+                 f"\n{parts}" + ("" if row["on_frontier"] else "\nnot on the frontier"))
+        return f'{match.group(0)}<title>{html.escape(label)}</title>'
+
+    return re.sub(r'<g id="point(\d+)">', title, svg)

@@ -1,0 +1,65 @@
+"""Reading of report rows: totals, labels, limits. As bench/report/frontier.cpp and table.cpp have them."""
+
+PARTS = ("rounding", "storage", "device", "method")
+BYTES_PER_PIXEL = {"f32x4": 16, "f32x2": 8, "f16x4": 8}
+
+
+def total_error(row):
+    """Sum of the parts: by the triangle inequality no less than |result - truth|."""
+    return sum(row["error"][part] or 0 for part in PARTS)
+
+
+def total_time(row, quartile="median"):
+    return sum(phase[quartile] for phase in row["time_ms"].values() if phase)
+
+
+def number(value, digits=3):
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if not isinstance(value, (int, float)):
+        return str(value)
+    return f"{value:.{digits}g}"
+
+
+def knobs(row):
+    return " ".join(f"{name} {number(value, 4)}" for name, value in row["knobs"].items())
+
+
+def options(row, every=False):
+    words = []
+    for name, value in row["options"].items():
+        if isinstance(value, bool):
+            if value:
+                words.append(name)
+        elif every or value not in ("clamp", "buffer", ""):
+            words.append(str(value))
+    return " ".join(words)
+
+
+def setting(row):
+    return f"{row['variant']} {options(row)} {knobs(row)}".strip()
+
+
+def limit(report, device, what, row=None):
+    """The limit of a device that stands beside a row: of the same size and bytes per pixel for copies."""
+    for entry in next((d["limits"] for d in report["devices"] if d["id"] == device), []):
+        if entry["what"] != what:
+            continue
+        width = BYTES_PER_PIXEL.get(row["options"].get("format"), 4) if row else 0
+        if row is None or (entry["size"] == row["size"] and entry["bytes_per_pixel"] == width):
+            return entry["rate"]
+    return None
+
+
+def achieved(report, row):
+    """(GB/s, share of the copy of the same size, GFLOP/s, share of the arithmetic limit); None where unknown."""
+    ms = total_time(row)
+    if not ms:
+        return None, None, None, None
+    rate = lambda work: work / ms * 1e-6 if work is not None else None
+    share = lambda value, top: value / top if value is not None and top else None
+    gigabytes, gigaflops = rate(row["bytes"]), rate(row["flops"])
+    return (gigabytes, share(gigabytes, limit(report, row["device"], "copy", row)),
+            gigaflops, share(gigaflops, limit(report, row["device"], "arithmetic")))
