@@ -65,6 +65,7 @@ VkFormat vulkan_format(Format format) {
 VkFormat vulkan_format(std::string_view type) {
   if (type == "float") return VK_FORMAT_R32_SFLOAT;
   if (type == "vec4") return VK_FORMAT_R32G32B32A32_SFLOAT;
+  if (type == "unorm8x4") return VK_FORMAT_R8G8B8A8_UINT;  // the kernel divides, with the same bits on every driver
   for (const Format format :
        {Format::f32x1, Format::f32x2, Format::f32x4, Format::f16x2, Format::f16x4, Format::unorm8x4}) {
     if (type == luxel::name(format)) return vulkan_format(format);

@@ -107,18 +107,40 @@ uint unorm8x4_bits(vec4 v) {
 #else
 #define GLSL_CHANNELS(v) (v)
 #endif
-#define GLSL_TEXELS(slot, type, name) \
-    layout(set = 0, binding = slot) uniform textureBuffer name; \
-    pixel load_pixel_##name(int stride, int x, int y) { return GLSL_CHANNELS(texelFetch(name, y * stride + x)); }
+// Drivers turn unorm8 into floats in ways of their own: texel buffers hand out its integers, and of what images hand out
+// the integer is found again, so that the value has the same bits as everywhere.
+#define GLSL_SAME(v) (v)
+#define GLSL_UNORM8(v) (floor((v) * 255.0f + 0.5f) / 255.0f)
+#define GLSL_DECODE_f32x1 GLSL_SAME
+#define GLSL_DECODE_f32x2 GLSL_SAME
+#define GLSL_DECODE_f32x4 GLSL_SAME
+#define GLSL_DECODE_f16x2 GLSL_SAME
+#define GLSL_DECODE_f16x4 GLSL_SAME
+#define GLSL_DECODE_unorm8x4 GLSL_UNORM8
+#define GLSL_TEXEL_BUFFER(slot, kind, decode, name) \
+    layout(set = 0, binding = slot) uniform kind name; \
+    pixel load_pixel_##name(int stride, int x, int y) { return GLSL_CHANNELS(decode(texelFetch(name, y * stride + x))); }
+vec4 unorm8_texel(uvec4 v) { return vec4(v) / 255.0f; }
+#define GLSL_TEXELS(slot, type, name) GLSL_TEXELS_##type(slot, name)
+#define GLSL_TEXELS_f32x1(slot, name) GLSL_TEXEL_BUFFER(slot, textureBuffer, GLSL_SAME, name)
+#define GLSL_TEXELS_f32x2(slot, name) GLSL_TEXEL_BUFFER(slot, textureBuffer, GLSL_SAME, name)
+#define GLSL_TEXELS_f32x4(slot, name) GLSL_TEXEL_BUFFER(slot, textureBuffer, GLSL_SAME, name)
+#define GLSL_TEXELS_f16x2(slot, name) GLSL_TEXEL_BUFFER(slot, textureBuffer, GLSL_SAME, name)
+#define GLSL_TEXELS_f16x4(slot, name) GLSL_TEXEL_BUFFER(slot, textureBuffer, GLSL_SAME, name)
+#define GLSL_TEXELS_unorm8x4(slot, name) GLSL_TEXEL_BUFFER(slot, utextureBuffer, unorm8_texel, name)
 #define GLSL_IMAGE2D(slot, type, name) \
     layout(set = 0, binding = slot) uniform texture2D name; \
-    pixel load_pixel_##name(int stride, int x, int y) { return GLSL_CHANNELS(texelFetch(name, ivec2(x, y), 0)); }
+    pixel load_pixel_##name(int stride, int x, int y) { \
+        return GLSL_CHANNELS(GLSL_DECODE_##type(texelFetch(name, ivec2(x, y), 0))); \
+    }
 #define GLSL_IMAGE3D(slot, type, name) \
     layout(set = 0, binding = slot) uniform texture3D name; \
-    pixel load_voxel_##name(ivec3 extent, ivec3 p) { return GLSL_CHANNELS(texelFetch(name, p, 0)); }
+    pixel load_voxel_##name(ivec3 extent, ivec3 p) { return GLSL_CHANNELS(GLSL_DECODE_##type(texelFetch(name, p, 0))); }
 #define GLSL_IMAGE_READ2D(slot, type, name) \
     layout(set = 0, binding = slot, GLSL_IMAGE_FORMAT_##type) restrict readonly uniform image2D name; \
-    pixel load_pixel_##name(int stride, int x, int y) { return GLSL_CHANNELS(imageLoad(name, ivec2(x, y))); }
+    pixel load_pixel_##name(int stride, int x, int y) { \
+        return GLSL_CHANNELS(GLSL_DECODE_##type(imageLoad(name, ivec2(x, y)))); \
+    }
 #define GLSL_SAMPLED2D(slot, type, name) layout(set = 0, binding = slot) uniform sampler2D name;
 #define GLSL_SAMPLED3D(slot, type, name) layout(set = 0, binding = slot) uniform sampler3D name;
 #define GLSL_IMAGE_FORMAT_f32x1 r32f
