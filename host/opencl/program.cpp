@@ -52,8 +52,10 @@ std::string build_log(cl_program program, cl_device_id device) {
   return std::string(log.c_str());
 }
 
-/// A kept file holds the key before the program, so that two keys of one hash are told apart.
-OwnedProgram load_binary(const Device::State& device, const std::string& key, const std::string& options) {
+/// A kept file holds the key before the program, so that two keys of one hash are told apart. A program that no kernel
+/// can be made of, because a driver's own settings have changed, is not used either.
+OwnedProgram load_binary(const Device::State& device, const Module& module, const std::string& key,
+                         const std::string& options) {
   std::vector<std::uint8_t> file;
   if (!read_checked(cache_path(device, key), file)) return {};
   if (file.size() <= key.size() + 1 || std::memcmp(file.data(), key.c_str(), key.size() + 1) != 0) return {};
@@ -64,6 +66,8 @@ OwnedProgram load_binary(const Device::State& device, const std::string& key, co
       clCreateProgramWithBinary(device.context.get(), 1, &device.device, &bytes, &binary, &status, &error));
   if (error != CL_SUCCESS || status != CL_SUCCESS) return {};
   if (clBuildProgram(program.get(), 1, &device.device, options.c_str(), nullptr, nullptr) != CL_SUCCESS) return {};
+  const OwnedKernel kernel(clCreateKernel(program.get(), std::string(module.part).c_str(), &error));
+  if (error != CL_SUCCESS) return {};
   return program;
 }
 
@@ -96,7 +100,7 @@ Result<OwnedProgram> build(const Device::State& device, const Plan& plan, const 
                            const std::string& options) {
   const bool keep = device.keep_binaries && !device.cache_directory.empty();
   if (keep) {
-    if (OwnedProgram kept = load_binary(device, key, options)) return kept;
+    if (OwnedProgram kept = load_binary(device, module, key, options)) return kept;
   }
   const std::string part = plan.kernel + ": " + std::string(module.part) + " (" + std::string(module.name) + ")";
   const char* source = module.opencl.data();
