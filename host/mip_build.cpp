@@ -100,6 +100,7 @@ Status check_choices(const MipBuildParams& p) {
 
 // Vertices leave no gap only where an extent is odd, 1 or 2.
 Status check_vertices(const MipBuildParams& p, int levels) {
+  if (p.samples != MipSamples::vertices) return {};
   Extent e{p.width, p.height, p.depth};
   for (int level = 0; level < levels; ++level)
     for (int axis = 0; axis < 3; ++axis) {
@@ -107,7 +108,7 @@ Status check_vertices(const MipBuildParams& p, int levels) {
         return out_of_range(axis_fields[axis], axis == 0 ? p.width : axis == 1 ? p.height : p.depth,
                             "an extent that is odd, 1 or 2 at every level that is halved (samples on vertices); level " +
                                 std::to_string(level) + " has " + std::to_string(e[axis]) +
-                                (level > 0 ? ": at most " + std::to_string(level) + " levels" : ""));
+                                (level > 0 ? "; or MipBuildParams.levels of 1.." + std::to_string(level) : ""));
       e[axis] = coarser(p, e[axis]);
     }
   return {};
@@ -265,15 +266,16 @@ class Pyramid {
     if (tiles(level)) {
       const Extent tile = p_.depth > 1 ? Extent{8, 8, 8} : Extent{16, 16, 1};
       planner_.pass("mip_average_tile", from, label("average, three levels from", level), invocations(d), invocations(tile),
-                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}},
-                    {{"TILE_X", tile[0]}, {"TILE_Y", tile[1]}, {"TILE_Z", tile[2]}, {"CLEAN", clean}},
+                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"clean", clean}},
+                    {{"TILE_X", tile[0]}, {"TILE_Y", tile[1]}, {"TILE_Z", tile[2]}},
                     {{"src", slot(level - 1)}, {"dst_a", slot(level)}, {"dst_b", slot(level + 1)}, {"dst_c", slot(level + 2)}});
       cost(level, 3, p_.format, taps);
       return 3;
     }
     planner_.pass("mip_average", from, label("average", level), invocations(d), profile_.voxels.workgroup,
-                  {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]}},
-                  {{"MODE_X", mode_of(p_, s[0])}, {"MODE_Y", mode_of(p_, s[1])}, {"MODE_Z", mode_of(p_, s[2])}, {"CLEAN", clean}},
+                  {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]},
+                   {"clean", clean}},
+                  {{"MODE_X", mode_of(p_, s[0])}, {"MODE_Y", mode_of(p_, s[1])}, {"MODE_Z", mode_of(p_, s[2])}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});
     cost(level, 1, p_.format, taps);
     return 1;
@@ -294,10 +296,11 @@ class Pyramid {
     }
     for (int direction = 0; direction < 6; ++direction) {
       if (!(p_.directions >> direction & 1)) continue;
+      const int axis = direction / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
       planner_.pass("mip_directional", from, label(direction_names[direction], level), invocations(d), profile_.voxels.workgroup,
-                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]}},
-                    {{"MODE_X", mode_of(p_, s[0])}, {"MODE_Y", mode_of(p_, s[1])}, {"MODE_Z", mode_of(p_, s[2])},
-                     {"CLEAN", level == 1}, {"AXIS", direction / 2}, {"SIGN", direction % 2}},
+                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]},
+                     {"axis", axis}, {"backward", direction % 2}, {"clean", level == 1}},
+                    {{"MODE_ALONG", mode_of(p_, s[axis])}, {"MODE_U", mode_of(p_, s[u])}, {"MODE_V", mode_of(p_, s[v])}},
                     {{"src", slot(level - 1, direction)}, {"dst", slot(level, direction)}});
       cost(level, 1, p_.format, 44);
     }

@@ -22,12 +22,12 @@
     _(int, src_z) \
     _(int, dst_x)      /* extent of the level that is made */ \
     _(int, dst_y) \
-    _(int, dst_z)
+    _(int, dst_z) \
+    _(int, clean)      /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */
 #define CONSTANTS(_) \
     _(0, int, MODE_X, 1)  /* math/mip.h */ \
     _(1, int, MODE_Y, 1) \
-    _(2, int, MODE_Z, 1) \
-    _(3, int, CLEAN, 0)   /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */
+    _(2, int, MODE_Z, 1)
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)

@@ -11,7 +11,7 @@ FN pixel fine(CTX, int x, int y, int z) {
     pixel v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
 #endif
 #if CHANNELS == 4
-    if (CLEAN != 0) v = drop_hidden_colour(v);
+    if (params.clean != 0) v = drop_hidden_colour(v);
 #endif
     return v;
 }

@@ -20,12 +20,12 @@
 #define PARAMETERS(_) \
     _(int, src_x)      /* extent of the finer level; halved, each step is even or 1 */ \
     _(int, src_y) \
-    _(int, src_z)
+    _(int, src_z) \
+    _(int, clean)      /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */
 #define CONSTANTS(_) \
     _(0, int, TILE_X, 8)  /* the workgroup: 8 x 8 x 8, or 16 x 16 x 1 for images */ \
     _(1, int, TILE_Y, 8) \
-    _(2, int, TILE_Z, 8) \
-    _(3, int, CLEAN, 0)   /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */
+    _(2, int, TILE_Z, 8)
 #define SHARED_MEMORY(_) \
     _(pixel, 512, tile) \
     _(pixel, 64, small)

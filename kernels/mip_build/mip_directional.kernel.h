@@ -1,12 +1,13 @@
 // A coarser level of one directional volume: the voxels along the direction composited front to back, then the mean of
 // the four (nine at odd extents) results. Source: Crassin et al. 2011 (anisotropic voxels).
-#define MODE_ALONG (AXIS == 0 ? MODE_X : (AXIS == 1 ? MODE_Y : MODE_Z))
-#define MODE_U (AXIS == 0 ? MODE_Y : MODE_X)
-#define MODE_V (AXIS == 2 ? MODE_Y : MODE_Z)
 
 // (along the axis, the other two in the order x, y, z) from (x, y, z), and back.
-FN ivec3 turned(ivec3 p) { return AXIS == 0 ? p : (AXIS == 1 ? ivec3(p.y, p.x, p.z) : ivec3(p.z, p.x, p.y)); }
-FN ivec3 straight(ivec3 p) { return AXIS == 0 ? p : (AXIS == 1 ? ivec3(p.y, p.x, p.z) : ivec3(p.y, p.z, p.x)); }
+FN ivec3 turned(CTX, ivec3 p) {
+    return params.axis == 0 ? p : (params.axis == 1 ? ivec3(p.y, p.x, p.z) : ivec3(p.z, p.x, p.y));
+}
+FN ivec3 straight(CTX, ivec3 p) {
+    return params.axis == 0 ? p : (params.axis == 1 ? ivec3(p.y, p.x, p.z) : ivec3(p.y, p.z, p.x));
+}
 
 FN ivec3 src_extent(CTX) { return ivec3(params.src_x, params.src_y, params.src_z); }
 FN ivec3 dst_extent(CTX) { return ivec3(params.dst_x, params.dst_y, params.dst_z); }
@@ -17,14 +18,14 @@ FN pixel fine(CTX, ivec3 p) {
 #else
     pixel v = load_voxel(src, src_extent(ctx), p);
 #endif
-    return CLEAN != 0 ? drop_hidden_colour(v) : v;
+    return params.clean != 0 ? drop_hidden_colour(v) : v;
 }
 
 // Fine voxel k of coarse voxel i along the axis. At odd extents the first and third belong to it in part.
 FN pixel layer(CTX, int i, int k, int u, int v) {
-    pixel c = fine(ctx, straight(ivec3(mip_tap(MODE_ALONG, i, k, 0), u, v)));
+    pixel c = fine(ctx, straight(ctx, ivec3(mip_tap(MODE_ALONG, i, k, 0), u, v)));
     if (MODE_ALONG == MIP_TRIPLE && k != 1) {
-        int m = turned(dst_extent(ctx)).x;
+        int m = turned(ctx, dst_extent(ctx)).x;
         c = layer_part(c.w, float(k == 0 ? m - i : i + 1) / float(m)) * c;
     }
     return c;
@@ -32,22 +33,22 @@ FN pixel layer(CTX, int i, int k, int u, int v) {
 
 FN pixel composite_along(CTX, int i, int u, int v) {
     const int last = mip_taps(MODE_ALONG) - 1;
-    pixel c = layer(ctx, i, SIGN == 0 ? 0 : last, u, v);
-    UNROLL for (int k = 1; k <= last; ++k) c = composite(c, layer(ctx, i, SIGN == 0 ? k : last - k, u, v));
+    pixel c = layer(ctx, i, params.backward == 0 ? 0 : last, u, v);
+    UNROLL for (int k = 1; k <= last; ++k) c = composite(c, layer(ctx, i, params.backward == 0 ? k : last - k, u, v));
     return c;
 }
 
 FN pixel along_u(CTX, ivec3 i, int v) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_U); ++k) t[k] = composite_along(ctx, i.x, mip_tap(MODE_U, i.y, k, 0), v);
-    return mip_mean(MODE_U, t, i.y, turned(dst_extent(ctx)).y, turned(src_extent(ctx)).y);
+    return mip_mean(MODE_U, t, i.y, turned(ctx, dst_extent(ctx)).y, turned(ctx, src_extent(ctx)).y);
 }
 
 KERNEL(mip_directional) {
     const ivec3 p = ivec3(invocation_x(), invocation_y(), invocation_z());
     if (p.x >= params.dst_x || p.y >= params.dst_y || p.z >= params.dst_z) return;
-    const ivec3 i = turned(p);
+    const ivec3 i = turned(ctx, p);
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_V); ++k) t[k] = along_u(ctx, i, mip_tap(MODE_V, i.z, k, 0));
-    store_voxel(dst, dst_extent(ctx), p, mip_mean(MODE_V, t, i.z, turned(dst_extent(ctx)).z, turned(src_extent(ctx)).z));
+    store_voxel(dst, dst_extent(ctx), p, mip_mean(MODE_V, t, i.z, turned(ctx, dst_extent(ctx)).z, turned(ctx, src_extent(ctx)).z));
 }

@@ -16,14 +16,14 @@
     _(int, src_z) \
     _(int, dst_x)      /* extent of the level that is made */ \
     _(int, dst_y) \
-    _(int, dst_z)
+    _(int, dst_z) \
+    _(int, axis)       /* the volume's direction: 0 x, 1 y, 2 z */ \
+    _(int, backward)   /* 0: seen by who looks along +axis, 1: along -axis */ \
+    _(int, clean)      /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */
 #define CONSTANTS(_) \
-    _(0, int, MODE_X, 1)  /* math/mip.h: copy, pair or triple */ \
-    _(1, int, MODE_Y, 1) \
-    _(2, int, MODE_Z, 1) \
-    _(3, int, CLEAN, 0)   /* 1: colour that no opacity goes with may be NaN or infinite (level 0) */ \
-    _(4, int, AXIS, 0)    /* the volume's direction: 0 x, 1 y, 2 z */ \
-    _(5, int, SIGN, 0)    /* 0: seen by who looks along +axis, 1: along -axis */
+    _(0, int, MODE_ALONG, 1)  /* math/mip.h: copy, pair or triple; along the axis */ \
+    _(1, int, MODE_U, 1)      /* the other two axes, in the order x, y, z */ \
+    _(2, int, MODE_V, 1)
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)
