@@ -35,7 +35,8 @@ OVERLOAD float4 abs(float4 v) { return fabs(v); }
 #define CTX const Parameters params BINDINGS(OCL_PARAMETER) SHARED_MEMORY(OCL_SHARED)
 #define ctx params BINDINGS(OCL_ARGUMENT) SHARED_MEMORY(OCL_SHARED_ARGUMENT)
 #define KERNEL(name) \
-    __kernel __attribute__((reqd_work_group_size(WORKGROUP_X, WORKGROUP_Y, WORKGROUP_Z))) void name(CTX)
+    __kernel __attribute__((reqd_work_group_size(WORKGROUP_X, WORKGROUP_Y, WORKGROUP_Z))) \
+    void name(const Parameters params BINDINGS(OCL_KERNEL_PARAMETER) SHARED_MEMORY(OCL_SHARED))
 #define FIRST
 #define THEN barrier(CLK_LOCAL_MEM_FENCE);
 #define UNROLL _Pragma("unroll")
@@ -53,21 +54,23 @@ OVERLOAD float4 abs(float4 v) { return fabs(v); }
 #define OCL_MEMBER(type, name) type name;
 #define OCL_SHARED(type, count, name) , __local type* name
 #define OCL_SHARED_ARGUMENT(type, count, name) , name
-#define OCL_PARAMETER(kind, slot, type, name) OCL_PARAMETER_(kind, slot, type, name)
-#define OCL_PARAMETER_(kind, slot, type, name) OCL_##kind(type, name)
+// Only the kernel's own are `restrict`: where a function's are, Oclgrind stops at what the compiler makes of inlining it.
+#define OCL_PARAMETER(kind, slot, type, name) OCL_PARAMETER_(kind, type, name, )
+#define OCL_KERNEL_PARAMETER(kind, slot, type, name) OCL_PARAMETER_(kind, type, name, restrict)
+#define OCL_PARAMETER_(kind, type, name, alone) OCL_##kind(type, name, alone)
 #define OCL_ARGUMENT(kind, slot, type, name) OCL_ARGUMENT_(kind, slot, type, name)
 #define OCL_ARGUMENT_(kind, slot, type, name) OCL_ARG_##kind(name)
-#define OCL_READ(type, name) , __global const OCL_TYPE_##type* restrict name
-#define OCL_TEXELS(type, name) , __global const OCL_TYPE_##type* restrict name
-#define OCL_WRITE(type, name) , __global OCL_TYPE_##type* restrict name
-#define OCL_UPDATE(type, name) , volatile __global OCL_TYPE_##type* name
-#define OCL_UNIFORM(count, name) , __constant float* restrict name
-#define OCL_IMAGE2D(type, name) , __read_only image2d_t name
-#define OCL_IMAGE_READ2D(type, name) , __read_only image2d_t name
-#define OCL_IMAGE3D(type, name) , __read_only image3d_t name
-#define OCL_SAMPLED2D(type, name) , __read_only image2d_t name, sampler_t name##_sampler
-#define OCL_SAMPLED3D(type, name) , __read_only image3d_t name, sampler_t name##_sampler
-#define OCL_IMAGE_WRITE2D(type, name) , __write_only image2d_t name
+#define OCL_READ(type, name, alone) , __global const OCL_TYPE_##type* alone name
+#define OCL_TEXELS(type, name, alone) , __global const OCL_TYPE_##type* alone name
+#define OCL_WRITE(type, name, alone) , __global OCL_TYPE_##type* alone name
+#define OCL_UPDATE(type, name, alone) , volatile __global OCL_TYPE_##type* name
+#define OCL_UNIFORM(count, name, alone) , __constant float* alone name
+#define OCL_IMAGE2D(type, name, alone) , __read_only image2d_t name
+#define OCL_IMAGE_READ2D(type, name, alone) , __read_only image2d_t name
+#define OCL_IMAGE3D(type, name, alone) , __read_only image3d_t name
+#define OCL_SAMPLED2D(type, name, alone) , __read_only image2d_t name, sampler_t name##_sampler
+#define OCL_SAMPLED3D(type, name, alone) , __read_only image3d_t name, sampler_t name##_sampler
+#define OCL_IMAGE_WRITE2D(type, name, alone) , __write_only image2d_t name
 #define OCL_ARG_READ(name) , name
 #define OCL_ARG_TEXELS(name) , name
 #define OCL_ARG_WRITE(name) , name
