@@ -150,7 +150,7 @@ TEST(Npy, RefusesMalformedInput) {
       {later, "has NPY version 3.0; expected 1.0 or 2.0"},
       {long_header, "ends within the NPY header"},
       {huge_header, "ends within the NPY header"},
-      {npy(good, 23), "holds 23 bytes of data; its shape (2,3) of f4 needs 24"},
+      {npy(good, 23), "holds 23 bytes of data; its shape (2, 3) of f4 needs 24"},
       {npy(good, 0), "holds 0 bytes of data"},
       {npy(good, 25), "holds 25 bytes of data"},
       {npy(head("'<f4'", "True", "(2, 3)"), 24), "Fortran order"},

@@ -127,11 +127,9 @@ std::optional<Dtype> dtype_of(std::string_view descr) {
   return {};
 }
 
+// As Python writes a tuple.
 std::string shape_text(const std::vector<std::size_t>& shape) {
-  std::string text = "(";
-  for (const std::size_t n : shape) text += fmt::format("{},", n);
-  if (shape.size() > 1) text.pop_back();
-  return text + ")";
+  return fmt::format("({}{})", fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
 }
 
 // Bytes of an array, or nothing where the product does not fit.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include <fmt/format.h>
+#include <luxel/reference.h>
 
 #include "bench/io/pixels.h"
 
@@ -17,14 +18,15 @@ const Entry& entry(const std::vector<Entry>& entries, std::string_view name) {
   return *std::find_if(entries.begin(), entries.end(), [&](const Entry& e) { return e.name == name; });
 }
 
-CLI::Option* add_names(CLI::App& command, std::string_view option, const std::vector<std::string_view>& choices,
-                       const std::string& help, std::string& value) {
-  value = choices.front();
-  const CLI::Validator among([choices](std::string& text) {
+CLI::Validator among(std::vector<std::string_view> choices) {
+  return CLI::Validator([choices = std::move(choices)](std::string& text) {
     if (std::find(choices.begin(), choices.end(), text) != choices.end()) return std::string();
     return fmt::format("{} is not known; expected {}", text, fmt::join(choices, ", "));
   }, "");
-  return command.add_option(std::string(option), value, help)->type_name("NAME")->check(among);
+}
+
+std::string help_of(const Option& option) {
+  return fmt::format("{}; default {}; {}", range_text(option), option.fallback, option.meaning);
 }
 
 template <class T>
@@ -107,6 +109,35 @@ Result<std::shared_ptr<Context>> open_device(const std::string& device) {
   return Context::open("cpu");
 }
 
+Status run_plan(Context& context, const Plan& plan, ResourceData& data, Times& times) {
+  const auto program = context.compile(plan);
+  if (!program) return program.status();
+  const auto precision = context.real64() ? reference::Precision::real64 : reference::Precision::real32;
+  std::vector<Named> bound;
+  for (const Resource& resource : plan.resources) {
+    const std::size_t size = std::max(data[resource.name].size(), reference::resource_bytes(resource, precision));
+    auto memory = context.make(resource, resource.kind == ResourceKind::buffer ? size : 0);
+    if (!memory) return memory.status();
+    bound.push_back({resource.name, std::move(memory).value()});
+  }
+  // Drivers compile at the first dispatch: what is timed is the second.
+  for (int runs = context.info().api == Api::cpu ? 1 : 2; runs > 0; --runs) {
+    for (const Named& b : bound)
+      if (const auto& bytes = data[std::string(b.name)]; !bytes.empty())
+        if (Status s = context.upload(*b.memory, bytes.data(), bytes.size()); !s) return s;
+    times = {};
+    if (Status s = context.run(*program.value(), bound, &times); !s) return s;
+  }
+  for (std::size_t i = 0; i < bound.size(); ++i) {
+    const Resource& resource = plan.resources[i];
+    if (!resource.written) continue;
+    std::vector<std::uint8_t>& bytes = data[resource.name];
+    bytes.resize(std::max(bytes.size(), reference::resource_bytes(resource, precision)));
+    if (Status s = context.download(*bound[i].memory, bytes.data(), bytes.size()); !s) return s;
+  }
+  return {};
+}
+
 std::string range_text(const Knob& knob) { return fmt::format("{}..{}", knob.least, knob.most); }
 
 std::string range_text(const Option& option) {
@@ -116,15 +147,20 @@ std::string range_text(const Option& option) {
 CLI::Option* add_variant(CLI::App& command, const Kernel& kernel, std::string& value) {
   std::vector<std::string_view> names;
   for (const Variant& v : kernel.variants) names.push_back(v.name);
-  return add_names(command, "--variant", names,
-                   fmt::format("{}; default {}; `luxel list` describes them", fmt::join(names, "|"), names.front()), value);
+  value = names.front();
+  const std::string help = fmt::format("{}; default {}; `luxel list` describes them", fmt::join(names, "|"), value);
+  return command.add_option("--variant", value, help)->type_name("NAME")->check(among(names));
 }
 
 CLI::Option* add_choice(CLI::App& command, const Kernel& kernel, std::string_view name, std::string& value) {
   const Option& o = entry(kernel.options, name);
-  CLI::Option* option = add_names(command, name, o.choices, fmt::format("{}; default {}; {}", range_text(o), o.fallback, o.meaning), value);
   value = o.fallback;
-  return option;
+  return command.add_option(std::string(name), value, help_of(o))->type_name("NAME")->check(among(o.choices));
+}
+
+CLI::Option* add_choices(CLI::App& command, const Kernel& kernel, std::string_view name, std::vector<std::string>& values) {
+  const Option& o = entry(kernel.options, name);
+  return command.add_option(std::string(name), values, help_of(o))->type_name("NAMES")->delimiter(',')->check(among(o.choices));
 }
 
 CLI::Option* add_switch(CLI::App& command, const Kernel& kernel, std::string_view name, bool& value) {
@@ -145,7 +181,8 @@ Format storage_format(const std::string& format, int channels) {
 
 std::string time_text(const Times& times) {
   const double passes = std::accumulate(times.passes.begin(), times.passes.end(), 0.0);
-  return passes > 0 ? fmt::format("{:.3g} ms on the device's clock", passes) : fmt::format("{:.3g} ms", times.total);
+  const double ms = passes > 0 ? passes : times.total;
+  return fmt::format("{:.{}f} ms{}", ms, ms < 10 ? 3 : ms < 100 ? 1 : 0, passes > 0 ? " on the device's clock" : "");
 }
 
 std::string changes_text(const io::WriteReport& report) {

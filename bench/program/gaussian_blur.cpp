@@ -49,25 +49,11 @@ int run(const Arguments& a) {
   Context& context = *opened.value();
   const Result<Plan> plan = luxel::plan(p, context.profile());
   if (!plan) return complain(plan.status());
-  const auto program = context.compile(plan.value());
-  if (!program) return complain(program.status().message(), failed);
-
-  std::vector<std::uint8_t> pixels = io::pack(image.pixels, image.channels, p.format, context.real64());
-  std::vector<Named> bound;
-  for (const Resource& resource : plan.value().resources) {
-    auto memory = context.make(resource, resource.kind == ResourceKind::buffer ? pixels.size() : 0);
-    if (!memory) return complain(memory.status().message(), failed);
-    bound.push_back({resource.name, std::move(memory).value()});
-    if (resource.written) continue;
-    if (Status s = context.upload(*bound.back().memory, pixels.data(), pixels.size()); !s) return complain(s.message(), failed);
-  }
+  ResourceData data{{"src", io::pack(image.pixels, image.channels, p.format, context.real64())}};
   Times times;
-  if (Status s = context.run(*program.value(), bound, &times); !s) return complain(s.message(), failed);
-  for (std::size_t i = 0; i < bound.size(); ++i)
-    if (plan.value().resources[i].written)
-      if (Status s = context.download(*bound[i].memory, pixels.data(), pixels.size()); !s) return complain(s.message(), failed);
+  if (Status s = run_plan(context, plan.value(), data, times); !s) return complain(s.message(), failed);
 
-  image.pixels = io::unpack(pixels, p.format, context.real64(), image.channels);
+  image.pixels = io::unpack(data["dst"], p.format, context.real64(), image.channels);
   io::WriteReport changes;
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
   fmt::print("gaussian_blur {} {} {}x{}, sigma {}, radius {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,

@@ -11,6 +11,8 @@
 namespace luxel::program {
 namespace {
 
+constexpr const char* no_stdout = "cannot write to stdout; check where it goes";
+
 // The subcommand that was named, or the program itself.
 const CLI::App& named_command(const CLI::App& app) {
   const auto commands = app.get_subcommands();
@@ -58,6 +60,7 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
 int run(int argc, char** argv) {
   CLI::App app{"luxel: GPU compute kernels for real-time global illumination, with their error and their run time", "luxel"};
   app.require_subcommand(1);
+  app.set_version_flag("--version", "luxel " LUXEL_VERSION, "Print the version and exit");
   app.footer("Exit status: 0 done, 1 the run failed or a promise is broken, 2 wrong use. Errors are one line on stderr.\n"
              "`luxel COMMAND --help` shows a command's options with their ranges and defaults.");
   int exit_status = done;
@@ -76,9 +79,10 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return complain("out of memory; use a smaller input", failed);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return complain(no_stdout, failed);
     return complain(fmt::format("{}; this is a defect of luxel: please report it", error.what()), failed);
   }
-  if (std::fflush(stdout) != 0) return complain("cannot write to stdout; check where it goes", failed);
+  if (std::fflush(stdout) != 0) return complain(no_stdout, failed);
   return exit_status;
 }
 

@@ -1,0 +1,271 @@
+#!/usr/bin/env bash
+# The built program ($1) on real and on broken input: exit status, one line on stderr, and what it writes.
+# Real files come from LUXEL_DATA (default ../shared/data beside the source); without them those cases are skipped visibly.
+set -u
+[[ $# -ge 1 ]] || { echo "usage: $0 PROGRAM" >&2; exit 2; }
+luxel=$(readlink -f -- "$1")
+root=$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")
+data=${LUXEL_DATA:-$root/../shared/data}
+work=$(mktemp -d) || exit 2
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 2
+checks=0 failures=0
+
+fail() {
+  failures=$((failures + 1))
+  printf 'FAILED: %s\n' "$1"
+  [[ ${2:-} ]] && sed 's/^/    /' <<<"$2"
+}
+
+# expect STATUS PATTERN COMMAND...: on 0 stderr is empty and stdout matches; else stdout is empty and stderr is one line
+# that begins with "luxel: " and matches.
+expect() {
+  local status=$1 pattern=$2 got
+  shift 2
+  checks=$((checks + 1))
+  "$@" >out.txt 2>err.txt </dev/null
+  got=$?
+  [[ $got == "$status" ]] || { fail "$*: exit status $got, expected $status" "$(cat out.txt err.txt)"; return 1; }
+  if [[ $status == 0 ]]; then
+    [[ ! -s err.txt ]] || fail "$*: something on stderr" "$(cat err.txt)"
+    grep -Eq -- "$pattern" out.txt || fail "$*: stdout does not match $pattern" "$(cat out.txt)"
+  else
+    [[ ! -s out.txt ]] || fail "$*: something on stdout" "$(cat out.txt)"
+    [[ $(wc -l <err.txt) == 1 && $(head -c 7 err.txt) == 'luxel: ' ]] || fail "$*: not one line on stderr" "$(cat err.txt)"
+    grep -Eq -- "$pattern" err.txt || fail "$*: stderr does not match $pattern" "$(cat err.txt)"
+  fi
+}
+
+same() {
+  checks=$((checks + 1))
+  cmp -s -- "$1" "$2" || fail "$1 and $2 differ"
+}
+
+# Python lines with `read(path)` -> (shape, values) and `write(path, shape, values)` for float32 NPY files; asserts fail.
+python() {
+  checks=$((checks + 1))
+  python3 - "$@" 2>err.txt <<END || fail "python: $*" "$(cat err.txt)"
+import ast, math, struct, sys
+def read(path):
+    b = open(path, 'rb').read()
+    assert b[:8] == b'\x93NUMPY\x01\x00', path
+    n = struct.unpack('<H', b[8:10])[0]
+    h = ast.literal_eval(b[10:10 + n].decode())
+    assert h['descr'] == '<f4' and not h['fortran_order'], h
+    count = math.prod(h['shape'])
+    assert len(b) == 10 + n + 4 * count
+    return h['shape'], struct.unpack('<%df' % count, b[10 + n:])
+def write(path, shape, values, order=False):
+    h = "{'descr': '<f4', 'fortran_order': %s, 'shape': %s, }" % (order, tuple(shape))
+    h += ' ' * (-(11 + len(h)) % 64) + '\n'
+    open(path, 'wb').write(b'\x93NUMPY\x01\x00' + struct.pack('<H', len(h)) + h.encode() + struct.pack('<%df' % len(values), *values))
+$(cat)
+END
+}
+
+python <<'END'
+write('ramp.npy', (4, 6), [float(i) for i in range(24)])
+write('flat.npy', (9, 7, 3), [0.1] * 189)
+write('spike.npy', (15, 15), [1.0 if i == 112 else 0.0 for i in range(225)])
+write('volume.npy', (2, 4, 4, 4), [(i % 7) / 8 for i in range(128)])
+write('hidden.npy', (2, 2, 4), [float('nan'), 0, 0, 0] + [0.5, 0.25, 0, 0.5] + [float('inf'), 0, 0, 1] + [1.0] * 4)
+write('fortran.npy', (4, 6), [0.0] * 24, True)
+write('line.npy', (24,), [0.0] * 24)
+write('wide.npy', (2, 2, 5), [0.0] * 20)
+write('slices.npy', (8, 8, 8), [0.0] * 512)
+write('one.npy', (1, 1), [1.0])
+END
+
+# ---- Help, lists, and words that nobody knows
+expect 0 'gaussian_blur' "$luxel" --help
+expect 0 '^luxel [0-9]+\.[0-9]+\.[0-9]+$' "$luxel" --version
+for command in devices list bench report gaussian_blur mip_build; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
+expect 0 'sigma.*0\.\.10000' "$luxel" gaussian_blur --help
+expect 0 'radius.*0\.\.4095.*default ceil\(3 sigma\)' "$luxel" gaussian_blur --help
+expect 0 'clamp\|mirror\|wrap\|zero; default clamp' "$luxel" gaussian_blur --help
+expect 0 'isotropic\|anisotropic\|gaussian3\|min\|max\|minmax\|moments' "$luxel" mip_build --help
+expect 0 '--levels +0\.\.16, whole, default 0' "$luxel" list
+expect 0 '^gaussian_blur: ' "$luxel" list gaussian_blur
+grep -q mip_build out.txt && fail "list gaussian_blur lists more than that"
+expect 2 'no kernel blur; expected gaussian_blur, mip_build' "$luxel" list blur
+expect 2 'no command given; see `luxel --help`' "$luxel"
+expect 2 'unknown command gausian_blur; did you mean gaussian_blur\?' "$luxel" gausian_blur --in ramp.npy
+expect 2 'unknown command qqqqqq; see' "$luxel" qqqqqq
+expect 2 'unknown option --simga; did you mean --sigma\?' "$luxel" gaussian_blur --simga 4 --in ramp.npy -o a.npy
+expect 2 'unknown option --helpp; did you mean --help\?' "$luxel" --helpp
+expect 2 'unexpected argument more' "$luxel" gaussian_blur --in ramp.npy --sigma 1 -o a.npy more
+expect 2 'unknown option --border2=clamp; did you mean --border\?' "$luxel" gaussian_blur --in ramp.npy --sigma 1 -o a.npy --border2=clamp
+if [[ -w /dev/full ]]; then
+  checks=$((checks + 1))
+  "$luxel" list >/dev/full 2>err.txt
+  [[ $? == 1 && $(cat err.txt) == 'luxel: cannot write to stdout; check where it goes' ]] || fail "list >/dev/full" "$(cat err.txt)"
+fi
+
+checks=$((checks + 1))
+"$luxel" devices >devices.txt 2>problems.txt || fail "devices: exit status $?"
+grep -Eq '^[0-9]+ +cpu +C\+\+ float ' devices.txt || fail "devices does not list C++ float" "$(cat devices.txt)"
+grep -vq '^luxel: ' problems.txt && fail "devices: stderr" "$(cat problems.txt)"
+devices=cpu
+for api in opencl vulkan; do grep -Eq "^[0-9]+ +$api " devices.txt && devices+=" $api"; done
+echo "devices: $devices"
+
+# ---- Refused values: 2, and no file
+blur=("$luxel" gaussian_blur --device cpu)
+mips=("$luxel" mip_build --device cpu)
+expect 2 '--in is required' "${blur[@]}" --sigma 1 -o a.npy
+expect 2 '--sigma is required' "${blur[@]}" --in ramp.npy -o a.npy
+expect 2 '--out is required' "${blur[@]}" --in ramp.npy --sigma 1
+expect 2 '--sigma: -1 is out of range; expected 0\.\.10000' "${blur[@]}" --in ramp.npy --sigma -1 -o a.npy
+expect 2 '--sigma: 10000\.5 is out of range' "${blur[@]}" --in ramp.npy --sigma 10000.5 -o a.npy
+expect 2 '--sigma: nan is out of range' "${blur[@]}" --in ramp.npy --sigma nan -o a.npy
+expect 2 '--sigma: four is not a number' "${blur[@]}" --in ramp.npy --sigma four -o a.npy
+expect 2 '--radius: 4096 is out of range; expected a whole number 0\.\.4095' "${blur[@]}" --in ramp.npy --sigma 1 --radius 4096 -o a.npy
+expect 2 '--radius: 2\.5 is out of range' "${blur[@]}" --in ramp.npy --sigma 1 --radius 2.5 -o a.npy
+expect 2 'sigma is 2000; expected 0\.\.1365, or a radius' "${blur[@]}" --in ramp.npy --sigma 2000 -o a.npy
+expect 2 '--border: edge is not known; expected clamp, mirror, wrap, zero' "${blur[@]}" --in ramp.npy --sigma 1 --border edge -o a.npy
+expect 2 '--variant: box is not known' "${blur[@]}" --in ramp.npy --sigma 1 --variant box -o a.npy
+expect 2 'border is mirror; expected clamp or wrap for variant sampler' "${blur[@]}" --in ramp.npy --sigma 1 --variant sampler --border mirror -o a.npy
+expect 2 'keep_alpha' "${blur[@]}" --in ramp.npy --sigma 1 --keep-alpha -o a.npy
+expect 2 'a\.jpg: has the unknown extension \.jpg; expected \.exr, \.hdr, \.png or \.npy' "${blur[@]}" --in ramp.npy --sigma 1 -o a.jpg
+expect 2 'a: has no extension' "${blur[@]}" --in ramp.npy --sigma 1 -o a
+expect 2 "'nothing'" "$luxel" gaussian_blur --in ramp.npy --sigma 1 --device nothing -o a.npy
+expect 2 '--levels: 17 is out of range; expected a whole number 0\.\.16' "${mips[@]}" --in ramp.npy --levels 17 -o a
+expect 2 'levels is 9; expected 0\.\.2' "${mips[@]}" --in ramp.npy --levels 9 -o a
+expect 2 'sizes is ceil; expected floor for variant isotropic' "${mips[@]}" --in ramp.npy --sizes ceil -o a
+expect 2 'has 1 channels; expected 4' "${mips[@]}" --in ramp.npy --variant anisotropic -o a
+expect 2 'has 4 channels; expected 1 for variant min' "${mips[@]}" --in volume.npy --variant min -o a
+expect 2 'has 3 channels; expected 1, or 2 for pairs for variant moments' "${mips[@]}" --in flat.npy --variant moments -o a
+expect 2 '--directions: up is not known; expected px, nx' "${mips[@]}" --in volume.npy --variant anisotropic --directions px,up -o a
+expect 2 'format is unorm8x4; expected f32x1 for variant max' "${mips[@]}" --in ramp.npy --variant max --format unorm8 -o a
+expect 2 'expected a level 0 of more than one texel' "${mips[@]}" --in one.npy -o a
+
+# ---- Unreadable input: 2
+printf 'not an image' >text.exr
+cp text.exr text.hdr; cp text.exr text.png; cp text.exr text.npy
+: >empty.exr; : >empty.hdr; : >empty.png; : >empty.npy
+mkdir folder.npy
+head -c 150 ramp.npy >short.npy
+for kind in exr hdr png npy; do
+  expect 2 "text\.$kind: is not a.*file" "${blur[@]}" --in "text.$kind" --sigma 1 -o a.npy
+  expect 2 "empty\.$kind: is not a.*file" "${blur[@]}" --in "empty.$kind" --sigma 1 -o a.npy
+done
+expect 2 'missing\.npy: does not exist; check the name' "${blur[@]}" --in missing.npy --sigma 1 -o a.npy
+expect 2 'folder\.npy: is not a file' "${blur[@]}" --in folder.npy --sigma 1 -o a.npy
+expect 2 'short\.npy: holds 22 bytes of data; its shape \(4, 6\) of f4 needs 96' "${blur[@]}" --in short.npy --sigma 1 -o a.npy
+expect 2 'Fortran order; save numpy\.ascontiguousarray' "${blur[@]}" --in fortran.npy --sigma 1 -o a.npy
+expect 2 'has 1 dimensions; an image has 2' "${blur[@]}" --in line.npy --sigma 1 -o a.npy
+expect 2 'has 5 channels; expected 1\.\.4' "${blur[@]}" --in wide.npy --sigma 1 -o a.npy
+expect 2 'has 8 channels \(its last dimension\).*\[z\]\[y\]\[x\]\[c\]' "${mips[@]}" --in slices.npy -o a
+expect 2 'has 1 dimensions' "${mips[@]}" --in line.npy -o a
+expect 2 'missing\.npy: does not exist' "${mips[@]}" --in missing.npy -o a
+[[ -e a || -e a.npy || -e a.jpg ]] && fail "a refused run left a file"
+
+# ---- Output that cannot be written: 1
+expect 1 'ramp\.npy/a\.npy: cannot be written; check' "${blur[@]}" --in ramp.npy --sigma 1 -o ramp.npy/a.npy
+expect 1 'ramp\.npy/level_0\.npy: cannot be written; check' "${mips[@]}" --in ramp.npy -o ramp.npy
+
+# ---- Results
+expect 0 '^gaussian_blur separable f32x1 6x4, sigma 0, radius 0, clamp on cpu:float: [0-9.]+ ms; wrote same\.npy$' "${blur[@]}" --in ramp.npy --sigma 0 -o same.npy
+same ramp.npy same.npy
+expect 0 'sigma 10000, radius 1,' "${blur[@]}" --in ramp.npy --sigma 10000 --radius 1 -o new/folder/far.npy
+[[ -s new/folder/far.npy ]] || fail "no file in new folders"
+expect 0 'radius 4095' "${blur[@]}" --in ramp.npy --sigma 1300 --radius 4095 --border wrap -o mean.npy
+python <<'END'
+shape, v = read('mean.npy')
+assert shape == (4, 6) and max(abs(x - 11.5) for x in v) <= 11.5 * 8191 * 2.0 ** -24, v  # 8191 sums in float
+END
+for border in clamp mirror wrap zero; do
+  expect 0 "$border on" "${blur[@]}" --in flat.npy --sigma 1.5 --border "$border" --difference -o flat_out.npy
+  same flat.npy flat_out.npy
+done
+for device in $devices cpu:double; do
+  for variant in separable direct sampler; do
+    expect 0 "gaussian_blur $variant f32x1 15x15, sigma 1\.5, radius 5, clamp on" "$luxel" gaussian_blur --device "$device" --variant $variant --in spike.npy --sigma 1.5 -o "spike_${device}_$variant.npy"
+    python "spike_${device}_$variant.npy" "$variant" <<'END'
+shape, v = read(sys.argv[1])
+w = [math.exp(-0.5 * (t / 1.5) ** 2) for t in range(-5, 6)]
+tolerance = 2e-3 if sys.argv[2] == 'sampler' else 1e-7  # a sampler may interpolate with few bits
+for y in range(15):
+    for x in range(15):
+        inside = abs(x - 7) <= 5 and abs(y - 7) <= 5
+        wanted = w[x - 2] * w[y - 2] / sum(w) ** 2 if inside else 0.0
+        assert abs(v[y * 15 + x] - wanted) <= tolerance, (x, y, v[y * 15 + x], wanted)
+END
+  done
+  same spike_cpu_separable.npy "spike_${device/cpu:double/cpu}_separable.npy"
+done
+expect 0 'values were not finite' "${blur[@]}" --in hidden.npy --sigma 0 -o hidden.png
+expect 2 'HDR files hold no alpha' "${blur[@]}" --in hidden.npy --sigma 0 -o hidden.hdr
+expect 0 'f16x4' "${blur[@]}" --in flat.npy --sigma 2 --format f16 -o half.npy
+expect 0 'unorm8x4' "${blur[@]}" --in flat.npy --sigma 2 --format unorm8 --drop-taps -o bytes.npy
+python <<'END'
+assert read('half.npy')[0] == (9, 7, 3) and max(abs(v - 0.1) for v in read('half.npy')[1]) < 2e-4
+assert max(abs(v - 26 / 255) for v in read('bytes.npy')[1]) < 1e-7  # 0.1 is 25.5 steps, and 26 after rounding to even
+END
+
+for device in $devices cpu:double; do
+  expect 0 'mip_build isotropic f32x1 6x4x1, 2 levels on' "$luxel" mip_build --device "$device" --in ramp.npy -o "mean_$device"
+  same ramp.npy "mean_$device/level_0.npy"
+  for variant in min max minmax moments gaussian3; do
+    expect 0 "mip_build $variant" "$luxel" mip_build --device "$device" --variant $variant --in ramp.npy -o "${variant}_$device"
+  done
+  expect 0 'mip_build max.*3 levels' "$luxel" mip_build --device "$device" --variant max --sizes ceil --in ramp.npy -o "ceil_$device"
+  expect 0 'mip_build anisotropic f32x4 4x4x2, 1 levels' "$luxel" mip_build --device "$device" --variant anisotropic --levels 1 --directions px,nz --in volume.npy -o "wall_$device"
+  expect 0 '1 texels without opacity lost a colour.*; 1 texels with infinities' "$luxel" mip_build --device "$device" --in hidden.npy -o "hidden_$device"
+  python "$device" <<'END'
+import os
+d = sys.argv[1]
+shape, v = read('mean_%s/level_1.npy' % d)
+assert shape == (2, 3) and v == (3.5, 5.5, 7.5, 15.5, 17.5, 19.5), v
+assert read('mean_%s/level_2.npy' % d)[0] == (1, 1)
+assert read('min_%s/level_1.npy' % d) == ((2, 3), (0.0, 2.0, 4.0, 12.0, 14.0, 16.0))
+assert read('min_%s/level_2.npy' % d) == ((1, 1), (0.0,))
+assert read('max_%s/level_2.npy' % d) == ((1, 1), (23.0,))
+assert read('minmax_%s/level_2.npy' % d) == ((1, 1, 2), (0.0, 23.0))
+assert [read('ceil_%s/level_%d.npy' % (d, l))[0] for l in range(4)] == [(4, 6), (2, 3), (1, 2), (1, 1)]
+shape, v = read('moments_%s/level_1.npy' % d)
+assert shape == (2, 3, 2) and v[0] == 3.5 and abs(v[1] - math.sqrt(9.25)) < 1e-6, v
+assert sorted(os.listdir('wall_' + d)) == ['level_0.npy', 'level_1_nz.npy', 'level_1_px.npy'], os.listdir('wall_' + d)
+assert read('wall_%s/level_1_px.npy' % d)[0] == (1, 2, 2, 4)
+assert read('hidden_%s/level_1.npy' % d)[0] == (1, 1, 4)
+END
+  for variant in mean min max minmax moments gaussian3 ceil wall; do
+    for file in "${variant}_cpu"/*.npy; do same "$file" "${variant}_${device/cpu:double/cpu}/${file##*/}"; done
+  done
+done
+
+# ---- Real files
+if [[ -d $data/photos ]]; then
+  for device in $devices; do
+    expect 0 'f32x4 1000x810, sigma 4, radius 12, mirror' "$luxel" gaussian_blur --device "$device" --in "$data/photos/CandleGlass.exr" --sigma 4 --border mirror -o "candle_$device.exr"
+    expect 0 'f32x4 1024x512' "$luxel" gaussian_blur --device "$device" --in "$data/hdri/vestibule_1k.hdr" --sigma 2 --border wrap -o "sky_$device.npy"
+    expect 0 'f32x1 512x512' "$luxel" gaussian_blur --device "$device" --in "$data/photos/camera.png" --sigma 3 -o "camera_$device.png"
+    expect 0 'minmax f32x2 512x512x1, 9 levels' "$luxel" mip_build --device "$device" --in "$data/photos/camera.png" --variant minmax -o "camera_$device"
+    for file in candle_X.exr sky_X.npy camera_X.png camera_X/level_5.npy; do same "${file/X/cpu}" "${file/X/$device}"; done
+  done
+  expect 0 'f32x4 451x300' "$luxel" gaussian_blur --in "$data/photos/chelsea.png" --sigma 0 -o chelsea.png
+  expect 0 'f32x4 451x300' "$luxel" gaussian_blur --in chelsea.png --sigma 0 -o chelsea.npy
+  expect 0 'f32x4 451x300' "$luxel" gaussian_blur --in "$data/photos/chelsea.png" --sigma 0 -o chelsea2.npy
+  same chelsea.npy chelsea2.npy
+  expect 0 'f32x4 1000x810' "$luxel" gaussian_blur --in "$data/photos/CandleGlass.exr" --sigma 0 -o candle.npy
+  expect 0 'f32x4 1000x810' "$luxel" gaussian_blur --in candle.npy --sigma 0 -o candle.exr
+  expect 0 'f32x4 1000x810' "$luxel" gaussian_blur --in candle.exr --sigma 0 -o candle2.npy
+  same candle.npy candle2.npy
+  for file in photos/CandleGlass.exr photos/camera.png hdri/vestibule_1k.hdr opencv_ref/in_candle.npy; do
+    head -c 20000 "$data/$file" >"cut.${file##*.}"
+    expect 2 "cut\.${file##*.}: .*; copy or export the file again" "${blur[@]}" --in "cut.${file##*.}" --sigma 1 -o cut_out.npy
+  done
+  # OpenCV's result on the same crop, with the same taps and border.
+  expect 0 'radius 6, clamp' "${blur[@]}" --in "$data/opencv_ref/in_candle.npy" --sigma 2 --radius 6 -o opencv.npy
+  python "$data/opencv_ref/gauss_candle_s2_k13_REPLICATE.npy" <<'END'
+(shape, ours), (theirs_shape, theirs) = read('opencv.npy'), read(sys.argv[1])
+assert shape == theirs_shape, (shape, theirs_shape)
+worst = max(abs(a - b) for a, b in zip(ours, theirs))
+assert worst <= 5e-6, worst
+END
+else
+  echo "SKIPPED: no real files in $data; set LUXEL_DATA"
+fi
+
+echo "$checks checks, $failures failed"
+[[ $failures == 0 ]]
