@@ -153,6 +153,28 @@ TEST(GaussianBlurRounding, StaysWithinItsBound) {
   }
 }
 
+// Small enough for a checking simulator: every variant, format and way of reading, and every border, with tails.
+TEST(GaussianBlurSmall, EveryVariantRuns) {
+  for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::sampler})
+    for (const Format format : cases::pixel_formats)
+      for (const Border border : cases::borders)
+        for (const Input input : {Input::buffer, Input::image}) {
+          GaussianBlurParams p = cases::blur_params(19, 7, 1.0, 2, format, border, variant);
+          p.input = input;
+          p.difference = variant == GaussianVariant::separable && border == Border::wrap;
+          if (border != Border::clamp && format != Format::f32x1) continue;
+          if (!validate(p)) continue;
+          std::vector<float> picture(static_cast<std::size_t>(p.width) * p.height * channels(format), 0.5f);
+          for (const std::string& device : test_devices()) {
+            Context& context = test_context(device);
+            if (input == Input::image && !context.make(plan(p, context.profile()).value().resources[0])) continue;
+            const std::vector<Bytes> got =
+                run_bytes(context, plan(p, context.profile()).value(), {{"src", encode(format, picture)}}, {"dst"});
+            for (const double v : decode(format, got.at(0))) EXPECT_NEAR(v, 0.5, 1.0 / 255) << device;
+          }
+        }
+}
+
 struct OpenCvOutput { const char* file; const char* input; double sigma; int taps; Border border; int channels; };
 
 TEST(GaussianBlurOpenCv, EqualsItsOutputs) {

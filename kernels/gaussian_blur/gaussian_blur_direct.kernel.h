@@ -50,15 +50,19 @@ FN wide weight_within(CTX, int x, int y) {
     return across * along;
 }
 
+// The row at distance t; nothing where it is outside and outside is nothing.
+FN wide row_at(CTX, wide origin, int x, int y, int t, bool inside) {
+    if (inside) return row(ctx, origin, x, y + t, true);
+    if (BORDER == BORDER_ZERO && (y + t < 0 || y + t >= params.height)) return wide_splat(0.0f);
+    return row(ctx, origin, x, border_index(BORDER, y + t, params.height), false);
+}
+
 FN wide blur(CTX, int x, int y, bool inside) {
     wide centre = tap(ctx, x, y, 0, inside);
     wide origin = DIFFERENCE != 0 ? centre : wide_splat(0.0f);
-    wide sum = wide_splat(0.0f);
-    for (int t = -RADIUS_Y; t <= RADIUS_Y; ++t) {
-        int sy = inside ? y + t : border_index(BORDER, y + t, params.height);
-        if (BORDER == BORDER_ZERO && (y + t < 0 || y + t >= params.height)) continue;
-        sum = sum + table(column_weights, t < 0 ? -t : t) * row(ctx, origin, x, sy, inside);
-    }
+    wide sum = table(column_weights, 0) * row_at(ctx, origin, x, y, 0, inside);
+    for (int t = 1; t <= RADIUS_Y; ++t)
+        sum = sum + table(column_weights, t) * (row_at(ctx, origin, x, y, -t, inside) + row_at(ctx, origin, x, y, t, inside));
     if (BORDER == BORDER_ZERO && !inside) sum = sum / weight_within(ctx, x, y);
     if (DIFFERENCE != 0) sum = centre + sum;
     return KEEP_ALPHA != 0 ? with_alpha_of(sum, centre) : sum;

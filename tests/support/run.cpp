@@ -94,9 +94,23 @@ const std::vector<std::string>& test_devices() {
   return names;
 }
 
-Context& test_context(const std::string& device) {
+namespace {
+
+std::map<std::string, std::shared_ptr<Context>>& open_contexts() {
   static std::map<std::string, std::shared_ptr<Context>> open;
-  std::shared_ptr<Context>& context = open[device];
+  return open;
+}
+
+// Devices are closed before exit: a driver's own statics may be gone by the time ours are destroyed.
+struct Closing : testing::Environment {
+  void TearDown() override { open_contexts().clear(); }
+};
+const testing::Environment* const closing = testing::AddGlobalTestEnvironment(new Closing);
+
+}  // namespace
+
+Context& test_context(const std::string& device) {
+  std::shared_ptr<Context>& context = open_contexts()[device];
   if (!context) context = expect_value(Context::open(device), device.c_str());
   return *context;
 }

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Runs small cases of every kernel in Oclgrind, which checks each memory access and looks for data races.
+# Usage: oclgrind_test.sh FOLDER with the test programs. Fails on any report, and where a filter selects no test.
+set -u
+cd "$1" || exit 2
+command -v oclgrind >/dev/null || { echo "oclgrind is missing: apt-get install oclgrind" >&2; exit 1; }
+log=$(mktemp -d)
+trap 'rm -rf "$log"' EXIT
+failed=0
+check() {
+  local program=$1 filter=$2
+  LUXEL_BACKENDS=opencl LUXEL_CACHE=$log/cache oclgrind --data-races --log "$log/report" \
+    "./$program" --gtest_filter="$filter" >"$log/out" 2>&1
+  local status=$?
+  if [ $status -ne 0 ] || [ -s "$log/report" ] || ! grep -qE '^\[  PASSED  \] [1-9]' "$log/out"; then
+    echo "$program $filter: status $status"
+    head -n 20 "$log/report" 2>/dev/null
+    grep -vE '^\[ (RUN|      OK)' "$log/out" | tail -n 20
+    failed=1
+  else
+    echo "$program $filter: $(grep -E '^\[  PASSED' "$log/out")"
+  fi
+}
+check probe_test '*'
+check gaussian_blur_test 'GaussianBlurSmall*'
+check mip_build_test 'MipBuildSmall*'
+exit $failed
