@@ -107,6 +107,7 @@ class Device : public testing::TestWithParam<std::string> {
     return value_of(luxel::plan(params, context().profile()));
   }
 
+  /// Memory for every resource; the names are the plan's, which must live as long.
   std::vector<Named> make_all(const Plan& plan) {
     std::vector<Named> named;
     for (const Resource& resource : plan.resources) {
@@ -198,9 +199,9 @@ TEST_P(Device, RunRefusesWhatDoesNotFit) {
                  "gaussian_blur: binding mask is unknown");
   expect_refusal(run({good[0], {"dst", nullptr}}), Code::invalid_argument, "gaussian_blur: binding dst");
   expect_refusal(run({good_images[0], good[1]}), Code::invalid_argument, "gaussian_blur: binding src");
-  const std::vector<Named> small = make_all(this->plan(Input::buffer, 40));
+  const Plan small_plan = this->plan(Input::buffer, 40), narrow_plan = this->plan(Input::image, 40);
+  const std::vector<Named> small = make_all(small_plan), narrow = make_all(narrow_plan);
   expect_refusal(run({good[0], small[1]}), Code::invalid_argument, "gaussian_blur: binding dst has ");
-  const std::vector<Named> narrow = make_all(this->plan(Input::image, 40));
   expect_refusal(context().run(*image_program, {narrow[0], good_images[1]}), Code::invalid_argument,
                  "gaussian_blur: binding src");
 
