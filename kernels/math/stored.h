@@ -1,17 +1,39 @@
-// Rounding by the storage formats as a function of the value, for values that invocations share before they are stored, and
-// for bounds. Double precision stores doubles: nothing is rounded there.
+// Rounding by the storage formats. Option STORAGE of a module: 0 f32, 1 f16, 2 unorm8, 3 unorm8 that comes from an image.
+// Means of unorm8 are taken in steps, 0..255: there sums and halves are exact, so that a half is seen as one and rounds to
+// even. In units of 1 it would not, and levels would drift upwards by 1/25 step each.
+// `n` as math/exact.h wants it.
 
-// `n`: at least 1 and known at run time only (some compilers fold constants in double).
-FN bool in_double(float n) { return n + 1.0e-9f > n; }
-
-FN float stored_f16(float v, bool exact) { return exact ? v : f16_value(f16_bits(v)); }
-FN float stored_unorm8(float v, bool exact) { return exact ? v : unorm8_value(unorm8_bits(v)); }
-
-// The nearest half not above v, and not below v (NaN stays; beyond 65504 infinite, which f16 stores as 65504).
-FN float f16_below(float v) {
-    uint h = f16_bits(v);
-    if (!(f16_value(h) > v)) return f16_value(h);
-    return f16_value((h & 0x8000u) != 0u ? h + 1u : h - 1u);
+FN float to_even(float v, int n) {
+    float low = floor(v);
+    float rest = v - low;
+    bool odd = low - 2.0f * floor(0.5f * low) == 1.0f;
+    return in_double(n) ? v : low + ((rest > 0.5f || (rest == 0.5f && odd)) ? 1.0f : 0.0f);
 }
-FN float f16_above(float v) { return -f16_below(-v); }
-FN vec2 outward_f16(vec2 v, bool exact) { return exact ? v : vec2(f16_below(v.x), f16_above(v.y)); }
+FN float f16_nearest(float v, int n) { return in_double(n) ? v : f16_value(f16_bits(v)); }
+// Images hand out unorm8 to within a few units in the last place; there is a whole number of steps.
+FN float snapped(float v, int n) { return in_double(n) ? v : floor(255.0f * v + 0.5f) / 255.0f; }
+
+// as_loaded: a value as a buffer would hand it out. to_steps: what means are taken of. rounded: of these, what storing and
+// loading again gives. from_steps: the value to store.
+#define as_loaded(v, n) (v)
+#if STORAGE == 0
+#define to_steps(v) (v)
+#define rounded(v, n) (v)
+#define from_steps(v, n) (v)
+#elif STORAGE == 1
+#define to_steps(v) (v)
+FN vec4 rounded(vec4 v, int n) {
+    return vec4(f16_nearest(v.x, n), f16_nearest(v.y, n), f16_nearest(v.z, n), f16_nearest(v.w, n));
+}
+#define from_steps(v, n) (v)
+#else
+#define to_steps(v) (255.0f * (v))
+FN vec4 rounded(vec4 v, int n) {
+    return vec4(to_even(v.x, n), to_even(v.y, n), to_even(v.z, n), to_even(v.w, n));
+}
+#define from_steps(v, n) (rounded(v, n) / 255.0f)
+#if STORAGE == 3
+#undef as_loaded
+FN vec4 as_loaded(vec4 v, int n) { return vec4(snapped(v.x, n), snapped(v.y, n), snapped(v.z, n), snapped(v.w, n)); }
+#endif
+#endif

@@ -7,10 +7,11 @@ FN pixel fine(CTX, int x, int y, int z) {
 #else
     pixel v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
 #endif
+    v = as_loaded(v, params.src_x);
 #if CHANNELS == 4
     if (params.clean != 0) v = drop_hidden_colour(v);
 #endif
-    return v;
+    return to_steps(v);
 }
 
 FN pixel along_x(CTX, int i, int y, int z) {
@@ -32,5 +33,6 @@ KERNEL(mip_average) {
     if (x >= params.dst_x || y >= params.dst_y || z >= params.dst_z) return;
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_Z); ++k) t[k] = along_y(ctx, x, y, mip_tap(MODE_Z, z, k, params.src_z));
-    store_voxel(dst, ivec3(params.dst_x, params.dst_y, params.dst_z), ivec3(x, y, z), mip_mean(MODE_Z, t, z, params.dst_z, params.src_z));
+    const pixel v = mip_mean(MODE_Z, t, z, params.dst_z, params.src_z);
+    store_voxel(dst, ivec3(params.dst_x, params.dst_y, params.dst_z), ivec3(x, y, z), from_steps(v, params.src_x));
 }

@@ -10,19 +10,11 @@ FN pixel fine(CTX, int x, int y, int z) {
 #else
     pixel v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
 #endif
+    v = as_loaded(v, params.src_x);
 #if CHANNELS == 4
     if (params.clean != 0) v = drop_hidden_colour(v);
 #endif
-    return v;
-}
-
-FN pixel as_stored(CTX, pixel v) {
-#if ROUNDED == 0
-    return v;
-#else
-    const bool exact = in_double(float(params.src_x));
-    return vec4(STORED(v.x, exact), STORED(v.y, exact), STORED(v.z, exact), STORED(v.w, exact));
-#endif
+    return to_steps(v);
 }
 
 FN pixel plane_of_source(CTX, ivec3 a, ivec3 b, int z) {
@@ -60,8 +52,8 @@ KERNEL(mip_average_tile) {
         const ivec3 b = second_of(p, extent);
         pixel v = plane_of_source(ctx, a, b, a.z);
         if (TILE_Z > 1) v = mip_pair(v, plane_of_source(ctx, a, b, b.z));
-        if (within(p, extent_a)) store_voxel(dst_a, extent_a, p, v);
-        store(tile, (lane.z * TILE_Y + lane.y) * TILE_X + lane.x, as_stored(ctx, v));
+        if (within(p, extent_a)) store_voxel(dst_a, extent_a, p, from_steps(v, params.src_x));
+        store(tile, (lane.z * TILE_Y + lane.y) * TILE_X + lane.x, rounded(v, params.src_x));
     }
     THEN {
         const ivec3 half_size = halved(size);
@@ -71,8 +63,8 @@ KERNEL(mip_average_tile) {
             const ivec3 b = second_of(p, extent_a) - group * size;
             pixel v = plane_of_tile(ctx, a, b, a.z);
             if (TILE_Z > 1) v = mip_pair(v, plane_of_tile(ctx, a, b, b.z));
-            if (within(p, extent_b)) store_voxel(dst_b, extent_b, p, v);
-            store(small, (lane.z * half_size.y + lane.y) * half_size.x + lane.x, as_stored(ctx, v));
+            if (within(p, extent_b)) store_voxel(dst_b, extent_b, p, from_steps(v, params.src_x));
+            store(small, (lane.z * half_size.y + lane.y) * half_size.x + lane.x, rounded(v, params.src_x));
         }
     }
     THEN {
@@ -84,7 +76,7 @@ KERNEL(mip_average_tile) {
             const ivec3 b = second_of(p, extent_b) - group * half_size;
             pixel v = plane_of_small(ctx, a, b, a.z);
             if (TILE_Z > 1) v = mip_pair(v, plane_of_small(ctx, a, b, b.z));
-            store_voxel(dst_c, extent_c, p, v);
+            store_voxel(dst_c, extent_c, p, from_steps(v, params.src_x));
         }
     }
 }

@@ -40,7 +40,7 @@ KERNEL(mip_bounds) {
             for (int k = x * RATIO; k <= last_x; ++k) v = wider(v, fine(ctx, k, j));
     }
 #if OUTWARD
-    v = outward_f16(v, in_double(float(params.src_x)));
+    v = in_double(params.src_x) ? v : outward_f16(v);
 #endif
     store_pixel(dst, params.dst_x, x, y, v);
 }

@@ -44,7 +44,7 @@ KERNEL(mip_bounds_tile) {
         const ivec2 b = second_of(p, extent);
         pixel v = widest(fine(ctx, a.x, a.y), fine(ctx, b.x, a.y), fine(ctx, a.x, b.y), fine(ctx, b.x, b.y));
 #if OUTWARD
-        v = outward_f16(v, in_double(float(params.src_x)));
+        v = in_double(params.src_x) ? v : outward_f16(v);
 #endif
         if (within(p, extent_a)) store_pixel(dst_a, extent_a.x, p.x, p.y, v);
         store(tile, lane.y * TILE + lane.x, v);

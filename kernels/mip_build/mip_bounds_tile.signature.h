@@ -1,5 +1,5 @@
 /* BUILD
-   math: bound stored
+   math: bound exact
    module f32x1: CHANNELS=1 SRC_KIND=READ SRC=f32x1 DST=f32x1 ONE=0 OUTWARD=0
    module f32x2: CHANNELS=2 SRC_KIND=READ SRC=f32x2 DST=f32x2 ONE=0 OUTWARD=0
    module f16x2: CHANNELS=2 SRC_KIND=READ SRC=f16x2 DST=f16x2 ONE=0 OUTWARD=0

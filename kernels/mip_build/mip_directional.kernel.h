@@ -18,6 +18,7 @@ FN pixel fine(CTX, ivec3 p) {
 #else
     pixel v = load_voxel(src, src_extent(ctx), p);
 #endif
+    v = as_loaded(v, params.src_x);
     return params.clean != 0 ? drop_hidden_colour(v) : v;
 }
 
@@ -35,7 +36,7 @@ FN pixel composite_along(CTX, int i, int u, int v) {
     const int last = mip_taps(MODE_ALONG) - 1;
     pixel c = layer(ctx, i, params.backward == 0 ? 0 : last, u, v);
     UNROLL for (int k = 1; k <= last; ++k) c = composite(c, layer(ctx, i, params.backward == 0 ? k : last - k, u, v));
-    return c;
+    return to_steps(c);
 }
 
 FN pixel along_u(CTX, ivec3 i, int v) {
@@ -50,5 +51,6 @@ KERNEL(mip_directional) {
     const ivec3 i = turned(ctx, p);
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_V); ++k) t[k] = along_u(ctx, i, mip_tap(MODE_V, i.z, k, 0));
-    store_voxel(dst, dst_extent(ctx), p, mip_mean(MODE_V, t, i.z, turned(ctx, dst_extent(ctx)).z, turned(ctx, src_extent(ctx)).z));
+    const pixel v = mip_mean(MODE_V, t, i.z, turned(ctx, dst_extent(ctx)).z, turned(ctx, src_extent(ctx)).z);
+    store_voxel(dst, dst_extent(ctx), p, from_steps(v, params.src_x));
 }

@@ -1,14 +1,14 @@
 /* BUILD
-   math: mip opacity
-   module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0
-   module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0
-   module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0
-   module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1
-   module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1
-   module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1
-   module volume_f32x4: SRC_KIND=IMAGE3D PIXEL=f32x4 BY_ROWS=0
-   module volume_f16x4: SRC_KIND=IMAGE3D PIXEL=f16x4 BY_ROWS=0
-   module volume_unorm8x4: SRC_KIND=IMAGE3D PIXEL=unorm8x4 BY_ROWS=0
+   math: mip opacity exact stored
+   module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0 STORAGE=0
+   module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0 STORAGE=1
+   module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0 STORAGE=2
+   module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1 STORAGE=0
+   module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1 STORAGE=1
+   module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
+   module volume_f32x4: SRC_KIND=IMAGE3D PIXEL=f32x4 BY_ROWS=0 STORAGE=0
+   module volume_f16x4: SRC_KIND=IMAGE3D PIXEL=f16x4 BY_ROWS=0 STORAGE=1
+   module volume_unorm8x4: SRC_KIND=IMAGE3D PIXEL=unorm8x4 BY_ROWS=0 STORAGE=3
 */
 #define PARAMETERS(_) \
     _(int, src_x)      /* extent of the finer level */ \

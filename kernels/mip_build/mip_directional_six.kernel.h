@@ -2,20 +2,21 @@
 
 FN vec4 fine(CTX, int x, int y, int z) {
 #if BY_ROWS
-    return drop_hidden_colour(load_pixel(src, params.src_x, x, z * params.src_y + y));
+    const vec4 v = load_pixel(src, params.src_x, x, z * params.src_y + y);
 #else
-    return drop_hidden_colour(load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z)));
+    const vec4 v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
 #endif
+    return drop_hidden_colour(as_loaded(v, params.src_x));
 }
 
 // The pair of an axis seen from the front; along an axis of extent 1 there is no pair.
-FN vec4 seen(int pair, vec4 front, vec4 back) { return pair != 0 ? composite(front, back) : front; }
+FN vec4 seen(int pair, vec4 front, vec4 back) { return to_steps(pair != 0 ? composite(front, back) : front); }
 
-// The mean over the two axes across, u first.
-FN vec4 mean_of(int pair_u, int pair_v, vec4 a, vec4 b, vec4 c, vec4 d) {
+// The mean over the two axes across, u first, as it is stored.
+FN vec4 mean_of(CTX, int pair_u, int pair_v, vec4 a, vec4 b, vec4 c, vec4 d) {
     vec4 low = pair_u != 0 ? mip_pair(a, b) : a;
     vec4 high = pair_u != 0 ? mip_pair(c, d) : c;
-    return pair_v != 0 ? mip_pair(low, high) : low;
+    return from_steps(pair_v != 0 ? mip_pair(low, high) : low, params.src_x);
 }
 
 KERNEL(mip_directional_six) {
@@ -33,10 +34,16 @@ KERNEL(mip_directional_six) {
     const vec4 f = fine(ctx, x + PAIR_X, y, z + PAIR_Z);
     const vec4 g = fine(ctx, x, y + PAIR_Y, z + PAIR_Z);
     const vec4 h = fine(ctx, x + PAIR_X, y + PAIR_Y, z + PAIR_Z);
-    store_voxel(dst_px, extent, p, mean_of(PAIR_Y, PAIR_Z, seen(PAIR_X, a, b), seen(PAIR_X, c, d), seen(PAIR_X, e, f), seen(PAIR_X, g, h)));
-    store_voxel(dst_nx, extent, p, mean_of(PAIR_Y, PAIR_Z, seen(PAIR_X, b, a), seen(PAIR_X, d, c), seen(PAIR_X, f, e), seen(PAIR_X, h, g)));
-    store_voxel(dst_py, extent, p, mean_of(PAIR_X, PAIR_Z, seen(PAIR_Y, a, c), seen(PAIR_Y, b, d), seen(PAIR_Y, e, g), seen(PAIR_Y, f, h)));
-    store_voxel(dst_ny, extent, p, mean_of(PAIR_X, PAIR_Z, seen(PAIR_Y, c, a), seen(PAIR_Y, d, b), seen(PAIR_Y, g, e), seen(PAIR_Y, h, f)));
-    store_voxel(dst_pz, extent, p, mean_of(PAIR_X, PAIR_Y, seen(PAIR_Z, a, e), seen(PAIR_Z, b, f), seen(PAIR_Z, c, g), seen(PAIR_Z, d, h)));
-    store_voxel(dst_nz, extent, p, mean_of(PAIR_X, PAIR_Y, seen(PAIR_Z, e, a), seen(PAIR_Z, f, b), seen(PAIR_Z, g, c), seen(PAIR_Z, h, d)));
+    store_voxel(dst_px, extent, p,
+                mean_of(ctx, PAIR_Y, PAIR_Z, seen(PAIR_X, a, b), seen(PAIR_X, c, d), seen(PAIR_X, e, f), seen(PAIR_X, g, h)));
+    store_voxel(dst_nx, extent, p,
+                mean_of(ctx, PAIR_Y, PAIR_Z, seen(PAIR_X, b, a), seen(PAIR_X, d, c), seen(PAIR_X, f, e), seen(PAIR_X, h, g)));
+    store_voxel(dst_py, extent, p,
+                mean_of(ctx, PAIR_X, PAIR_Z, seen(PAIR_Y, a, c), seen(PAIR_Y, b, d), seen(PAIR_Y, e, g), seen(PAIR_Y, f, h)));
+    store_voxel(dst_ny, extent, p,
+                mean_of(ctx, PAIR_X, PAIR_Z, seen(PAIR_Y, c, a), seen(PAIR_Y, d, b), seen(PAIR_Y, g, e), seen(PAIR_Y, h, f)));
+    store_voxel(dst_pz, extent, p,
+                mean_of(ctx, PAIR_X, PAIR_Y, seen(PAIR_Z, a, e), seen(PAIR_Z, b, f), seen(PAIR_Z, c, g), seen(PAIR_Z, d, h)));
+    store_voxel(dst_nz, extent, p,
+                mean_of(ctx, PAIR_X, PAIR_Y, seen(PAIR_Z, e, a), seen(PAIR_Z, f, b), seen(PAIR_Z, g, c), seen(PAIR_Z, h, d)));
 }
