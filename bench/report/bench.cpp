@@ -5,11 +5,13 @@
 
 #include <fmt/format.h>
 #include <luxel/gaussian_blur.h>
+#include <luxel/mip_build.h>
 
 #include "bench/report/guard.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
 #include "bench/scene/images.h"
+#include "tests/cases/mip_build_support.h"
 
 namespace luxel::report {
 namespace {
@@ -64,6 +66,32 @@ std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Pr
   return settings;
 }
 
+std::vector<BenchSetting> mip_build_settings(const Profile& profile) {
+  std::vector<BenchSetting> settings;
+  const auto add = [&](MipVariant variant, Format format, std::array<int, 3> extent, bool single_pass, int ratio = 2) {
+    MipBuildParams p = cases::mip_params(variant, format, extent);
+    p.ratio = ratio;
+    Profile form = profile;
+    form.workgroup_memory = single_pass;
+    const Result<Plan> made = plan(p, form);
+    if (made)
+      settings.push_back({fmt::format("{} {} {}x{}x{}{}{}", cases::name(variant), name(format), extent[0], extent[1], extent[2],
+                                      ratio == 16 ? " ratio 16" : "", single_pass ? " single pass" : ""), made.value(), {"level_0"}});
+  };
+  constexpr std::array<int, 3> volume{128, 128, 128}, image{1920, 1080, 1};
+  for (const Format format : {Format::f32x1, Format::f32x4, Format::f16x4, Format::unorm8x4}) add(MipVariant::isotropic, format, volume, false);
+  add(MipVariant::isotropic, Format::f32x4, volume, true);
+  add(MipVariant::anisotropic, Format::f32x4, volume, false);
+  add(MipVariant::gaussian3, Format::f32x4, volume, false);
+  add(MipVariant::min, Format::f32x1, image, false);
+  add(MipVariant::min, Format::f32x1, image, false, 16);
+  add(MipVariant::minmax, Format::f32x2, image, false);
+  add(MipVariant::minmax, Format::f16x2, image, false);
+  add(MipVariant::minmax, Format::f32x2, image, true);
+  add(MipVariant::moments, Format::f16x2, image, false);
+  return settings;
+}
+
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
                  const std::vector<std::pair<int, int>>& sizes) {
   Settings wanted;
@@ -90,6 +118,8 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
     if (wanted.wants("gaussian_blur"))
       for (const BenchSetting& setting : gaussian_blur_settings(width, height, context->profile()))
         line(fmt::format("gaussian_blur {}x{} {}", width, height, setting.name), setting);
+  if (wanted.wants("mip_build"))
+    for (const BenchSetting& setting : mip_build_settings(context->profile())) line("mip_build " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

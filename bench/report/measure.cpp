@@ -5,10 +5,12 @@
 #include "bench/report/child.h"
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
+#include "bench/report/mips.h"
 #include "bench/report/pictures.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
 #include "tests/cases/gaussian_blur_cases.h"
+#include "tests/cases/mip_build_cases.h"
 
 namespace luxel::report {
 namespace {
@@ -32,7 +34,6 @@ int measure_device(const Settings& settings, const std::string& device, double b
   std::vector<std::string> missing;
   std::vector<std::shared_ptr<const Scene>> files;
   for (Scene& scene : image_files(settings, missing)) files.push_back(std::make_shared<Scene>(std::move(scene)));
-  for (const std::string& line : missing) session.note("skipped", line);
 
   std::vector<Job> jobs = limit_jobs(session);
   if (settings.wants("gaussian_blur")) {
@@ -43,6 +44,16 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, stability_jobs(session, cases::gaussian_blur_cases()));
     if (first) append(jobs, gaussian_pictures(session, files));
   }
+  if (settings.wants("mip_build")) {
+    const MipScenes scenes = mip_scenes(settings, files, missing);
+    append(jobs, mip_grid(session, scenes));
+    append(jobs, mip_left_out(session, scenes));
+    append(jobs, mip_reproduction(session, scenes));
+    append(jobs, mip_peers(session));
+    append(jobs, stability_jobs(session, cases::mip_build_cases()));
+    if (first) append(jobs, mip_pictures(session, scenes));
+  }
+  for (const std::string& line : missing) session.note("skipped", line);
   session.run(jobs);
   session.emit_promises();
   return 0;

@@ -83,13 +83,18 @@ Status write_file(const std::string& path, const std::string& text) {
 // The page and the plots are made by Python; without it the numbers stand all the same.
 void render(const std::string& out) {
   const std::string script = LUXEL_SOURCE_DIR "/python/report/render.py", log = out + "/render.log";
-  const Ended ended = run_child({"/usr/bin/env", "python3", script, out}, {}, log, 600, [](const std::string&) {});
-  if (!ended.died() && ended.status == 0) return;
-  std::string last, line;
-  for (std::ifstream file(log); std::getline(file, line);)
-    if (!line.empty()) last = line;
-  fmt::print(stderr, "luxel: no page was made: {}\n",
-             ended.started && !last.empty() ? last : "python3 is missing (Debian: apt-get install python3-matplotlib)");
+  std::string why = "python3 is missing (Debian: apt-get install python3-matplotlib)";
+  // Debian's own first: its packages are what is installed for this.
+  for (std::vector<std::string> argv : {std::vector<std::string>{"/usr/bin/python3"}, {"/usr/bin/env", "python3"}}) {
+    argv.insert(argv.end(), {script, out});
+    const Ended ended = run_child(argv, {}, log, 600, [](const std::string&) {});
+    if (!ended.died() && ended.status == 0) return;
+    std::string last, line;
+    for (std::ifstream file(log); std::getline(file, line);)
+      if (!line.empty()) last = line;
+    if (ended.started && !last.empty()) why = last;
+  }
+  fmt::print(stderr, "luxel: no page was made: {}\n", why);
 }
 
 }  // namespace

@@ -1,0 +1,220 @@
+#include "bench/report/mips.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "bench/truth/mip_truth.h"
+#include "tests/cases/compare.h"
+#include "tests/cases/storage.h"
+
+namespace luxel::report {
+namespace {
+
+using cases::Pyramid;
+using cases::Run;
+using cases::Values;
+
+struct Outcome {
+  std::uint64_t bits = 0;
+  Pyramid levels;
+};
+
+Result<Outcome> read_all(Run& run, Context& context, const MipBuildParams& p) {
+  Outcome outcome;
+  std::vector<std::byte> all;
+  for (const std::string& name : cases::mip_names(p)) {
+    const auto bytes = run.bytes(name);
+    if (!bytes) return bytes.status();
+    all.insert(all.end(), bytes.value().begin(), bytes.value().end());
+    outcome.levels[name] = cases::fetch(bytes.value(), p.format, context.real64());
+  }
+  outcome.bits = hash_bytes(all);
+  return outcome;
+}
+
+Result<Plan> plan_of(const MipSetting& s, Profile profile) {
+  profile.workgroup_memory = s.single_pass;
+  return plan(s.params, profile);
+}
+
+Result<Outcome> outcome(Context& context, const MipSetting& s, const Values& src) {
+  Result<Run> run = Run::make(context, plan_of(s, context.profile()));
+  if (!run) return run.status();
+  if (Status status = run.value().write("level_0", src); !status) return status;
+  if (Status status = run.value().go(); !status) return status;
+  return read_all(run.value(), context, s.params);
+}
+
+Pyramid truth_of(const MipBuildParams& p, const Values& src) {
+  Pyramid levels;
+  std::map<int, std::vector<truth::Level>> by_direction;
+  for (const std::string& name : cases::mip_names(p)) {
+    const int direction = cases::direction_of(name);
+    if (!by_direction.contains(direction)) by_direction[direction] = truth::pyramid(p, src, direction);
+    levels[name] = by_direction[direction][cases::level_of(name)].values;
+  }
+  return levels;
+}
+
+double largest(const Pyramid& a, const Pyramid& b, double full_scale) {
+  double most = 0;
+  for (const auto& [name, values] : a) {
+    const double d = cases::max_difference(values, b.at(name));
+    if (!(d <= most)) most = d;
+  }
+  return most / full_scale;
+}
+
+// |mean of a - b| of a level in steps at `full_scale`.
+double drift_of(const Values& a, const Values& b, Format format, double full_scale) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] - b[i];
+  return std::fabs(sum / static_cast<double>(a.size())) / cases::step(format, 0.75 * full_scale);
+}
+
+Format in_f32(Format format) { return format == Format::f16x4 || format == Format::unorm8x4 ? Format::f32x4 : format == Format::f16x2 ? Format::f32x2 : format; }
+
+// The errors that no device changes: first of all levels, then (with `drift`) of each level by the other metric.
+Result<std::vector<Oracle>> compute_oracles(Session& session, const MipSetting& s, const Values& src, double full_scale, bool drift) {
+  const auto exact = outcome(session.cpu_double(), s, src);
+  if (!exact) return exact.status();
+  const auto stored = outcome(session.cpu_float(), s, src);
+  if (!stored) return stored.status();
+  MipSetting wide = s;
+  wide.params.format = in_f32(s.params.format);
+  const auto unrounded = wide.params.format == s.params.format ? stored : outcome(session.cpu_float(), wide, src);
+  if (!unrounded) return unrounded.status();
+  const Pyramid truth = truth_of(s.params, src);
+  const Pyramid &d = exact.value().levels, &f = stored.value().levels, &f32 = unrounded.value().levels;
+  std::vector<Oracle> oracles{{stored.value().bits, largest(f32, d, full_scale), largest(f, f32, full_scale), largest(d, truth, full_scale)}};
+  for (int level = 1; drift && level <= mip_levels(s.params); ++level) {
+    const std::string name = mip_level_name(level);
+    const auto apart = [&](const Pyramid& a, const Pyramid& b) { return drift_of(a.at(name), b.at(name), s.params.format, full_scale); };
+    oracles.push_back({stored.value().bits, apart(f32, d), apart(f, f32), apart(d, truth)});
+  }
+  return oracles;
+}
+
+Json options_of(const MipBuildParams& p) {
+  Json options{{"format", name(p.format)}, {"input", p.input == Input::image ? "image" : "buffer"}};
+  if (p.variant == MipVariant::min || p.variant == MipVariant::max || p.variant == MipVariant::minmax) {
+    options["sizes"] = p.sizes == MipSizes::ceil ? "ceil" : "floor";
+    options["ratio"] = p.ratio;
+  }
+  if (p.variant == MipVariant::gaussian3) options["samples"] = p.samples == MipSamples::vertices ? "vertices" : "cells";
+  return options;
+}
+
+}  // namespace
+
+std::string size_text(const std::array<int, 3>& e) {
+  return e[2] > 1 ? fmt::format("{}x{}x{}", e[0], e[1], e[2]) : fmt::format("{}x{}", e[0], e[1]);
+}
+
+std::string label(const MipSetting& s) {
+  const MipBuildParams& p = s.params;
+  return fmt::format("mip_build {} {}{}{}{}{}{} on {} {}", cases::name(p.variant), name(p.format), p.input == Input::image ? " image" : "",
+                     p.sizes == MipSizes::ceil ? " ceil" : "", p.ratio == 16 ? " ratio 16" : "",
+                     p.samples == MipSamples::vertices ? " vertices" : "", s.single_pass ? " single pass" : "", s.scene->name,
+                     size_text(s.scene->extent));
+}
+
+MipSetting setting_for(const std::shared_ptr<const MipScene>& scene, MipVariant variant, Format format) {
+  return {scene, cases::mip_params(variant, format, scene->extent), false};
+}
+
+std::vector<double> level_0(const MipSetting& s) {
+  const Format format = cases::finest_format(s.params);
+  const int have = s.scene->channels, want = channels(format);
+  Values values;
+  for (std::size_t i = 0; i * have < s.scene->values.size(); ++i)
+    for (int c = 0; c < want; ++c) values.push_back(c < have ? s.scene->values[i * have + c] : c == 3 ? 1.0 : s.scene->values[i * have]);
+  return cases::quantise(values, format);
+}
+
+Status measure_mips(Session& session, const MipSetting& s, bool drift) {
+  const MipBuildParams& p = s.params;
+  const Values src = level_0(s);
+  double full_scale = 0;
+  for (const double v : src) full_scale = std::max(full_scale, std::fabs(v));
+  const std::string size = size_text(s.scene->extent), where = label(s);
+
+  const auto ready = ready_mips(session, s);
+  if (!ready) return ready.status();
+  Run& run = *ready.value();
+  const Result<Sample> ms = session.time(run, where);
+  if (!ms) return ms.status();
+  const auto result = read_all(run, session.context(), p);
+  if (!result) return result.status();
+
+  // One computation serves the whole pyramid and each of its levels.
+  std::vector<Oracle> computed;
+  const auto oracle = [&](std::size_t index) {
+    return session.oracle(fmt::format("{} {}", where, index), [&]() -> Result<Oracle> {
+      if (computed.empty()) {
+        auto all = compute_oracles(session, s, src, full_scale, drift);
+        if (!all) return all.status();
+        computed = std::move(all).value();
+      }
+      return computed[index];
+    });
+  };
+  const Result<Oracle> whole = oracle(0);
+  if (!whole) return whole.status();
+  const bool equal = result.value().bits == whole.value().bits;
+  session.promise_bits("mip_build", equal, where);
+  Pyramid expected;
+  if (!equal) {
+    auto made = outcome(session.cpu_float(), s, src);
+    if (!made) return made.status();
+    expected = std::move(made).value().levels;
+  }
+
+  const auto row = [&](const std::string& metric, const Oracle& o, double device, Json knobs) {
+    session.row("frontier",
+                {{"kernel", "mip_build"}, {"variant", cases::name(p.variant)}, {"device", session.device()}, {"scene", s.scene->name},
+                 {"size", size}, {"options", options_of(p)}, {"knobs", std::move(knobs)},
+                 {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
+                 {"error", {{"metric", metric}, {"rounding", o.rounding}, {"storage", o.storage}, {"device", device}, {"method", o.method},
+                            {"discretization", nullptr}, {"model", nullptr}, {"stderr", nullptr}}},
+                 {"bytes", run.plan().bytes}, {"flops", run.plan().flops}, {"memory_bytes", run.memory_bytes()}, {"on_frontier", nullptr},
+                 {"group", fmt::format("mip_build|{}|{}|{}|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name, size, metric,
+                                       cases::name(p.variant), name(p.format), static_cast<int>(p.sizes), p.ratio, static_cast<int>(p.samples))}});
+  };
+  row("max |x - t| / max |input|, all levels", whole.value(), equal ? 0 : largest(result.value().levels, expected, full_scale),
+      {{"levels", mip_levels(p)}, {"single_pass", s.single_pass}});
+  for (int level = 1; drift && level <= mip_levels(p); ++level) {
+    const Result<Oracle> one = oracle(static_cast<std::size_t>(level));
+    if (!one) return one.status();
+    const std::string name = mip_level_name(level);
+    const double device = equal ? 0 : drift_of(result.value().levels.at(name), expected.at(name), p.format, full_scale);
+    row(fmt::format("|mean of x - t| in steps of the format, level {}", level), one.value(), device,
+        {{"levels", mip_levels(p)}, {"level", level}, {"single_pass", s.single_pass}});
+  }
+  return {};
+}
+
+Result<std::shared_ptr<Run>> ready_mips(Session& session, const MipSetting& s) {
+  Result<Run> made = Run::make(session.context(), plan_of(s, session.context().profile()));
+  if (!made) return made.status();
+  const auto run = std::make_shared<Run>(std::move(made).value());
+  if (Status status = run->write("level_0", level_0(s)); !status) return status;
+  return run;
+}
+
+Session::Timed timed(const std::shared_ptr<Run>& run) {
+  return [run]() -> Result<double> {
+    Times times;
+    if (Status status = run->go(1, &times); !status) return status;
+    return times.total;
+  };
+}
+
+double mip_bytes(Session& session, const MipSetting& s) {
+  const Result<Plan> made = plan_of(s, session.context().profile());
+  return made ? made.value().bytes : 0;
+}
+
+}  // namespace luxel::report
