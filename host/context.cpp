@@ -30,7 +30,8 @@ Status check_memories(const Context* owner, const Plan& plan, const std::vector<
     const Resource& made = resources[static_cast<std::size_t>(matched.value()[i])].memory->resource;
     const bool buffer = wanted.kind == ResourceKind::buffer;
     if (buffer != (made.kind == ResourceKind::buffer)) {
-      return bad_binding(plan, wanted.name, buffer ? "is an image; expected a buffer" : "is a buffer; expected an image");
+      return bad_binding(plan, wanted.name,
+                         buffer ? "is an image; expected a buffer" : "is a buffer; expected an image");
     }
     if (!buffer && (wanted.extent != made.extent || wanted.format != made.format)) {
       return bad_binding(plan, wanted.name, "is an image of " + texels_of(made) + "; expected " + texels_of(wanted));

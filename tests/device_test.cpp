@@ -217,7 +217,9 @@ TEST_P(Device, RunRefusesWhatDoesNotFit) {
 INSTANTIATE_TEST_SUITE_P(Each, Device, testing::ValuesIn(test_devices()),
                          [](const auto& info) {
                            std::string name = info.param;
-                           for (char& letter : name) letter = std::isalnum(static_cast<unsigned char>(letter)) ? letter : '_';
+                           for (char& letter : name) {
+                             if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+                           }
                            return name;
                          });
 

@@ -23,8 +23,9 @@ struct Adopt {
 
 class Device {
  public:
-  /// Borrow a device, which must outlive the result and every Pipeline made with it. Compiled kernels are kept until then,
-  /// so that another plan of the same kernel costs nothing. Errors: invalid_argument for a null handle, unsupported.
+  /// Borrow a device, which must outlive the result and every Pipeline made with it. Compiled kernels are kept until
+  /// then, so that another plan of the same kernel costs nothing. Errors: invalid_argument for a null handle, or an
+  /// extension that is not enabled; unsupported; out_of_memory.
   static Result<Device> adopt(const Adopt& info);
 
   const Profile& profile() const;
@@ -50,8 +51,8 @@ struct Record {
   VkQueryPool timestamps = VK_NULL_HANDLE;  // optional: passes + 1 queries from first_query on, already reset
   std::uint32_t first_query = 0;
   bool tables_current = false;              // scratch still holds this pipeline's tables from an earlier record
-  std::vector<VkBufferView>* texel_views = nullptr;  // needed where reads_texels(): the views that are made are appended;
-                                                     // the caller destroys them once the commands have run
+  /// Needed where reads_texels(): views that record makes are appended; the caller destroys them once the commands ran.
+  std::vector<VkBufferView>* texel_views = nullptr;
 };
 
 /// A plan compiled for a device. Any number of threads may record one pipeline at the same time.
@@ -65,7 +66,8 @@ class Pipeline {
   /// What one record takes out of Record::pool, beside one set a pass. Empty with push descriptors.
   const std::vector<VkDescriptorPoolSize>& pool_sizes() const;
 
-  /// Some pass reads through a texel buffer: buffers then need the usage UNIFORM_TEXEL_BUFFER as well.
+  /// Some pass reads through a texel buffer: buffers then need the usage UNIFORM_TEXEL_BUFFER as well. (Storage images
+  /// of f32x2 need the device feature shaderStorageImageExtendedFormats.)
   bool reads_texels() const;
 
   /// Records the plan's passes with the barriers between them; none at the edges. `scratch` needs the usages
