@@ -179,6 +179,14 @@ check "a failed build names its log" has "$err" "$root/build/release/build.log"
 check "a failed build prints nothing else" test -z "$out"
 write_program
 
+# The skeleton of a kernel.
+mkdir -p "$root/kernels/portable"
+echo 'import sys; print(sys.argv[1:]); sys.exit(3)' >"$root/kernels/portable/new_kernel.py"
+built=$(compilations)
+run "$script" new-kernel edge_mask
+check "new-kernel runs the skeleton's script" test "$status:$out" = "3:['edge_mask']"
+check "new-kernel builds nothing" test "$(compilations)" = "$built"
+
 # Packages.
 echo "beta" >"$fakes/installed"
 run "$script" list
