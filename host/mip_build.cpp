@@ -321,8 +321,8 @@ class Pyramid {
     const bool floor = p_.sizes == MipSizes::floor;
     const auto taps = [&](int n) { return floor && n % 2 == 1 && n > 1 ? 3 : 2; };
     planner_.pass("mip_bounds", module(level - 1, from, p_.format), label("bounds", level), invocations(d),
-                  profile_.voxels.workgroup, {{"src_x", s[0]}, {"src_y", s[1]}, {"dst_x", d[0]}, {"dst_y", d[1]}},
-                  {{"UPPER", upper}, {"RATIO", p_.ratio}, {"FLOOR", floor}, {"TAPS_X", taps(s[0])}, {"TAPS_Y", taps(s[1])}},
+                  profile_.voxels.workgroup, {{"src_x", s[0]}, {"src_y", s[1]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"cover_rest", floor}},
+                  {{"UPPER", upper}, {"RATIO", p_.ratio}, {"TAPS_X", taps(s[0])}, {"TAPS_Y", taps(s[1])}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});
     cost(level, 1, from, (p_.ratio * p_.ratio - 1.0) * channels(p_.format));
     return 1;

@@ -22,14 +22,16 @@ FN pixel wider(pixel a, pixel b) {
 }
 
 // The last of n texels that texel i of m covers.
-FN int last_covered(int i, int m, int n) { return FLOOR != 0 && i == m - 1 ? n - 1 : min(i * RATIO + RATIO, n) - 1; }
+FN int last_covered(CTX, int i, int m, int n) {
+    return params.cover_rest != 0 && i == m - 1 ? n - 1 : min(i * RATIO + RATIO, n) - 1;
+}
 
 KERNEL(mip_bounds) {
     const int x = invocation_x();
     const int y = invocation_y();
     if (x >= params.dst_x || y >= params.dst_y) return;
-    const int last_x = last_covered(x, params.dst_x, params.src_x);
-    const int last_y = last_covered(y, params.dst_y, params.src_y);
+    const int last_x = last_covered(ctx, x, params.dst_x, params.src_x);
+    const int last_y = last_covered(ctx, y, params.dst_y, params.src_y);
     pixel v = fine(ctx, x * RATIO, y * RATIO);
     if (RATIO == 2) {
         UNROLL for (int j = 0; j < TAPS_Y; ++j)

@@ -15,13 +15,13 @@
     _(int, src_x)      /* extent of the finer level */ \
     _(int, src_y) \
     _(int, dst_x)      /* extent of the level that is made */ \
-    _(int, dst_y)
+    _(int, dst_y) \
+    _(int, cover_rest) /* 1: the last texel covers what is left over, 0: it is cut off at the end */
 #define CONSTANTS(_) \
     _(0, int, UPPER, 0)   /* one channel: 0 minimum, 1 maximum; two channels hold both */ \
     _(1, int, RATIO, 2)   /* 2 or 16 */ \
-    _(2, int, FLOOR, 1)   /* 1: the last texel covers what is left over, 0: it is cut off at the end */ \
-    _(3, int, TAPS_X, 2)  /* ratio 2: 3 where the last texel of a row covers three, else 2 */ \
-    _(4, int, TAPS_Y, 2)
+    _(2, int, TAPS_X, 2)  /* ratio 2: 3 where the last texel of a row covers three, else 2 */ \
+    _(3, int, TAPS_Y, 2)
 #define BINDINGS(_) \
     _(SRC_KIND, 0, SRC, src) \
     _(WRITE, 1, DST, dst)
