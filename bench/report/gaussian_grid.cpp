@@ -38,10 +38,7 @@ class Grid {
   }
 
   void copies(const Scene& scene) {
-    const std::string size = size_text(scene.width, scene.height);
-    if (std::find(copied_.begin(), copied_.end(), size) != copied_.end()) return;
-    copied_.push_back(size);
-    for (const int bytes : {4, 8, 16}) jobs_.push_back(copy_job(session_, scene.width, scene.height, bytes));
+    add_copies(session_, jobs_, size_text(scene.width, scene.height), scene.width, scene.height);
   }
 
   std::vector<Job> take() { return std::move(jobs_); }
@@ -50,7 +47,6 @@ class Grid {
   Session& session_;
   bool quick_;
   std::vector<Job> jobs_;
-  std::vector<std::string> copied_;
 };
 
 // An image just large enough for the truth's kernel: nothing of the response is cut off.

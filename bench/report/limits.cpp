@@ -91,16 +91,16 @@ Status measure_triad(Session& session) {
   return {};
 }
 
-Status measure_copy(Session& session, int width, int height, int bytes) {
+Status measure_copy(Session& session, const std::string& size, int width, int height, int bytes) {
   Json best;
   for (const bool texels : {false, true}) {
     auto run = cases::Run::make(session.context(), copy_plan(width, height, bytes, texels, session.context().profile()));
     if (!run) return run.status();
     if (Status status = run.value().write("src", std::vector<double>(static_cast<std::size_t>(width) * height * (bytes / 4), 0.5)); !status)
       return status;
-    const Result<Sample> ms = session.time(run.value(), fmt::format("limit copy {}x{} of {} bytes", width, height, bytes));
+    const Result<Sample> ms = session.time(run.value(), fmt::format("limit copy {} of {} bytes", size, bytes));
     if (!ms) return ms.status();
-    const Json e = entry("copy", fmt::format("{}x{}", width, height), bytes, texels ? "texel buffer" : "buffer", ms.value(),
+    const Json e = entry("copy", size, bytes, texels ? "texel buffer" : "buffer", ms.value(),
                          2.0 * width * height * bytes, "GB/s");
     if (best.is_null() || e["rate"] > best["rate"]) best = e;
     if (session.context().info().api != Api::vulkan) break;  // elsewhere a texel buffer is a buffer
@@ -129,9 +129,11 @@ std::vector<Job> limit_jobs(Session& session) {
           {"limit triad", [&session] { return measure_triad(session); }}};
 }
 
-Job copy_job(Session& session, int width, int height, int bytes) {
-  return {fmt::format("limit copy {}x{} of {} bytes a pixel", width, height, bytes),
-          [=, &session] { return measure_copy(session, width, height, bytes); }};
+void add_copies(Session& session, std::vector<Job>& jobs, const std::string& size, int width, int rows) {
+  if (!session.first_time("copy " + size)) return;
+  for (const int bytes : {4, 8, 16})
+    jobs.push_back({fmt::format("limit copy {} of {} bytes a pixel", size, bytes),
+                    [=, &session] { return measure_copy(session, size, width, rows, bytes); }});
 }
 
 Json machine_limits(bool quick) {

@@ -7,8 +7,9 @@ namespace luxel::report {
 /// The arithmetic and triad jobs of a device. Adds to `devices[].limits`.
 std::vector<Job> limit_jobs(Session& session);
 
-/// A copy of `width` x `height` pixels of `bytes` 4, 8 or 16, by the fastest of the forms that read a buffer.
-Job copy_job(Session& session, int width, int height, int bytes);
+/// Adds copies of an image or volume of 4, 8 and 16 bytes a pixel, by the fastest of the forms that read a buffer, unless the
+/// session has them already. `size` is how rows of that size are written.
+void add_copies(Session& session, std::vector<Job>& jobs, const std::string& size, int width, int rows);
 
 /// Plan of a copy; `texels`: read through a texel buffer. Resources src and dst. Errors: invalid_argument.
 Result<Plan> copy_plan(int width, int height, int bytes, bool texels, const Profile& profile);

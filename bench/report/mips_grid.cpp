@@ -127,11 +127,8 @@ std::vector<Job> mip_grid(Session& session, const MipScenes& scenes) {
   const auto drifting = std::make_shared<MipScene>(std::move(ties));
   for (const Format format : colour) add(setting_for(drifting, MipVariant::isotropic, format), true);
 
-  const auto copies = [&](const std::array<int, 3>& e, std::initializer_list<int> sizes) {
-    for (const int bytes : sizes) jobs.push_back(copy_job(session, e[0], e[1] * e[2], bytes));
-  };
-  copies(scenes.room->extent, {4, 8, 16});
-  copies(scenes.hall->extent, {4, 8});
+  for (const auto& scene : {scenes.room, scenes.hall, scenes.picture})
+    add_copies(session, jobs, size_text(scene->extent), scene->extent[0], scene->extent[1] * scene->extent[2]);
   return jobs;
 }
 

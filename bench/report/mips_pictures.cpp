@@ -42,10 +42,11 @@ Status levels_of_image(Session& session, const MipSetting& s, const std::string&
   return write_picture(session, "mip_build", file, caption, canvas.width, canvas.height, 3, canvas.values, exposure, false);
 }
 
-// The middle slice across z of level `level`, up to 256 pixels wide.
+// The slice at `slice` of the depth of a volume, y up.
 void put_slice(Canvas& canvas, const Values& level, const std::array<int, 3>& e, double slice, int left, int side) {
   const int z = std::min(static_cast<int>(slice * e[2]), e[2] - 1), scale = std::max(1, side / e[0]);
-  canvas.put(level.data() + static_cast<std::size_t>(z) * e[0] * e[1] * 4, e[0], e[1], 4, e[0], scale, left, 0);
+  for (int y = 0; y < e[1]; ++y)
+    canvas.put(level.data() + (static_cast<std::size_t>(z) * e[1] + y) * e[0] * 4, e[0], 1, 4, e[0], scale, left, (e[1] - 1 - y) * scale);
 }
 
 Status slices_of_room(Session& session, const MipScenes& scenes) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,9 @@ class Session {
   /// The oracle of a setting, computed once in a report and shared by its devices through a file.
   Result<Oracle> oracle(const std::string& key, const std::function<Result<Oracle>()>& compute);
 
+  /// True the first time that it is asked with this text.
+  bool first_time(const std::string& what) { return seen_.insert(what).second; }
+
   /// Counts, for the promise that holds for the whole grid: results whose bits had to equal those of C++ float.
   void promise_bits(const std::string& kernel, bool equal, const std::string& label);
   void emit_promises();
@@ -82,6 +86,7 @@ class Session {
   Guard guard_;
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, Oracle> oracles_;
+  std::set<std::string> seen_;
   struct Bits { double checked = 0, different = 0; std::string first; };
   std::map<std::string, Bits> bits_;
 };

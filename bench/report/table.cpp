@@ -28,7 +28,7 @@ std::string options_text(const Json& options) {
   for (const auto& [name, v] : options.items()) {
     if (v.is_boolean()) {
       if (v.get<bool>()) all += " " + name;
-    } else if (v != "clamp" && v != "buffer" && v != "") {
+    } else if (v != "clamp" && v != "buffer" && v != "floor" && v != "cells" && v != 2) {
       all += " " + text(v);
     }
   }
@@ -49,25 +49,55 @@ double bytes_per_pixel(const Json& row) {
   return format == "f32x4" ? 16 : format == "f32x2" || format == "f16x4" ? 8 : 4;
 }
 
+// The scene, size and metric that most of a kernel's rows are about.
+std::string main_view(const std::vector<const Json*>& rows) {
+  std::map<std::string, int> counts;
+  std::string best;
+  for (const Json* r : rows) {
+    const std::string view = text((*r)["scene"]) + ", " + text((*r)["size"]) + ": " + text((*r)["error"]["metric"]);
+    if (++counts[view] > counts[best]) best = view;
+  }
+  return best;
+}
+
 void print_frontier(const Json& report) {
-  std::map<std::pair<std::string, std::string>, std::vector<const Json*>> groups;
+  std::map<std::string, std::vector<const Json*>> kernels;
   for (const Json& row : report["frontier"])
-    if (row["on_frontier"] == true) groups[{row["kernel"], row["device"]}].push_back(&row);
-  for (const auto& [key, rows] : groups) {
-    fmt::print("\n{} on {}: settings that no other beats in both error and time\n", key.first, key.second);
-    fmt::print("{:<14} {:<26} {:<30} {:<24} {:>10} {:>9} {:>7} {:>7}\n", "variant", "options", "knobs", "scene", "error", "ms", "copy%",
-               "arith%");
-    for (const Json* row : rows) {
-      const Json& r = *row;
-      const double ms = total_time(r).median;
-      const auto share = [&](const char* what, const std::string& size, const Json& work) {
-        const Json* l = limit(report, key.second, what, size, bytes_per_pixel(r));
-        return l && work.is_number() && ms > 0 ? fmt::format("{:.0f}", 100 * work.get<double>() / ms * 1e-6 / (*l)["rate"].get<double>()) : "-";
-      };
-      fmt::print("{:<14} {:<26.26} {:<30.30} {:<24.24} {:>10.3g} {:>9.4g} {:>7} {:>7}\n", text(r["variant"]), options_text(r["options"]),
-                 knobs_text(r["knobs"]), text(r["scene"]), total_error(r), ms, share("copy", r["size"], r["bytes"]),
-                 share("arithmetic", "", r["flops"]));
+    if (row["on_frontier"] == true && !row["knobs"].contains("level")) kernels[row["kernel"]].push_back(&row);
+  for (const auto& [kernel, rows] : kernels) {
+    const std::string view = main_view(rows);
+    fmt::print("\n{} on {}\nsettings that no other beats in both error and time (copy%: of the GB/s of a copy of this size on this device)\n", kernel, view);
+    std::map<std::string, std::vector<const Json*>> devices;
+    for (const Json* r : rows)
+      if (view == text((*r)["scene"]) + ", " + text((*r)["size"]) + ": " + text((*r)["error"]["metric"])) devices[(*r)["device"]].push_back(r);
+    for (const auto& [device, shown] : devices) {
+      fmt::print("{}\n  {:<12} {:<22} {:<30} {:>10} {:>9} {:>6} {:>6}\n", device, "variant", "options", "knobs", "error", "ms", "copy%", "arith%");
+      for (const Json* row : shown) {
+        const Json& r = *row;
+        const double ms = total_time(r).median;
+        const auto share = [&](const char* what, const std::string& size, const Json& work) {
+          const Json* l = limit(report, device, what, size, bytes_per_pixel(r));
+          return l && work.is_number() && ms > 0 ? fmt::format("{:.0f}", 100 * work.get<double>() / ms * 1e-6 / (*l)["rate"].get<double>()) : "-";
+        };
+        fmt::print("  {:<12} {:<22.22} {:<30.30} {:>10.3g} {:>9.4g} {:>6} {:>6}\n", text(r["variant"]), options_text(r["options"]),
+                   knobs_text(r["knobs"]), total_error(r), ms, share("copy", r["size"], r["bytes"]), share("arithmetic", "", r["flops"]));
+      }
     }
+  }
+}
+
+// Rows about one level of a pyramid: a line a format and device.
+void print_levels(const Json& report) {
+  std::map<std::string, std::map<int, double>> lines;
+  for (const Json& row : report["frontier"])
+    if (row["knobs"].contains("level"))
+      lines[fmt::format("{:<40.40} {:<10} {}", text(row["device"]), options_text(row["options"]), text(row["size"]))][row["knobs"]["level"]] = total_error(row);
+  if (lines.empty()) return;
+  fmt::print("\nmip_build isotropic: |mean drift| of each level, in steps of the format\n");
+  for (const auto& [line, levels] : lines) {
+    fmt::print("{}", line);
+    for (const auto& [level, drift] : levels) fmt::print("  {:.2g}", drift);
+    fmt::print("\n");
   }
 }
 
@@ -114,6 +144,7 @@ void print_stability(const Json& report) {
 
 void print_tables(const Json& report, const std::string& out) {
   print_frontier(report);
+  print_levels(report);
   print_peers(report);
   print_limits(report);
   print_stability(report);

@@ -28,6 +28,8 @@ for (const point of document.querySelectorAll('g[id^=point]')) {
 METRICS = {
     "max |x - t| / max |input|": "The largest difference of any channel of any pixel from the truth, over the largest value of the input. "
                                  "The truth is a convolution in double with the whole kernel (what is cut off sums to less than 1e-16), at the same border.",
+    "max |x - t| / max |input|, all levels": "The largest difference of any channel of any texel of any level (and direction) from the truth, over the "
+                                             "largest value of level 0. The truth is the same reduction in double, from level 0 on, never from a rounded level.",
     "half L1 of the impulse response's error": "The share of the filter's weight that lies in the wrong place: half the sum of "
                                                "|response - true response| to a single pixel of 1.",
 }
@@ -69,17 +71,9 @@ def frontier_table(report, points):
 
 def kernel_section(report, kernel, pictures, figures, folder):
     parts = [f'<h2 id="{esc(kernel)}">{esc(kernel)}</h2>']
-    shots = [picture for picture in pictures if picture["kernel"] == kernel]
-    if shots:
-        parts.append('<h3>Pictures</h3><div class="pictures">')
-        for shot in shots:
-            data = base64.b64encode((folder / shot["file"]).read_bytes()).decode()
-            parts.append(f'<figure><img alt="{esc(shot["caption"])}" src="data:image/png;base64,{data}">'
-                         f'<figcaption>{esc(shot["caption"])}</figcaption></figure>')
-        parts.append("</div>")
     points = [row for row in report["frontier"] if row["kernel"] == kernel]
     parts.append("<h3>Error against run time</h3>")
-    for metric in dict.fromkeys(row["error"]["metric"] for row in points):
+    for metric in dict.fromkeys(row["error"]["metric"] for row in points if "level" not in row["knobs"]):
         parts.append(f'<p class="note"><b>{esc(metric)}.</b> {esc(METRICS.get(metric, ""))}</p>')
     parts.append('<p class="note">Error: the sum of its parts, no less than the whole. Rounding: float against double. Storage: '
                  'rounding by the format of the result. Device: against C++ in float, 0 where the bits are equal. Method: double '
@@ -89,6 +83,15 @@ def kernel_section(report, kernel, pictures, figures, folder):
     for index, (_, scene, metric, count, svg) in enumerate(mine):
         drawing = f'<div class="wide">{svg}</div>'
         parts.append(drawing if index == 0 else details(f"{scene}: {metric}, {count} points", drawing))
+    shots = [picture for picture in pictures if picture["kernel"] == kernel]
+    if shots:
+        parts.append('<h3>Pictures</h3><div class="pictures">')
+        for shot in shots:
+            data = base64.b64encode((folder / shot["file"]).read_bytes()).decode()
+            parts.append(f'<figure><img alt="{esc(shot["caption"])}" src="data:image/png;base64,{data}">'
+                         f'<figcaption>{esc(shot["caption"])}</figcaption></figure>')
+        parts.append("</div>")
+    parts.append("<h3>Settings</h3>")
     for device in dict.fromkeys(row["device"] for row in points):
         here = [row for row in points if row["device"] == device]
         best = [row for row in here if row["on_frontier"]]

@@ -24,7 +24,8 @@ def draw(report, folder):
     folder.mkdir(parents=True, exist_ok=True)
     figures = []
     for kernel in dict.fromkeys(row["kernel"] for row in report["frontier"]):
-        mine = [row for row in report["frontier"] if row["kernel"] == kernel and rows.total_time(row) > 0]
+        mine = [row for row in report["frontier"] if row["kernel"] == kernel and rows.total_time(row) > 0
+                and "level" not in row["knobs"]]
         views = {}
         for row in mine:
             views.setdefault((row["scene"], row["size"], row["error"]["metric"]), []).append(row)
@@ -34,13 +35,45 @@ def draw(report, folder):
                 continue
             scene, size, metric = view
             figure = panels(points, devices, f"{kernel} on {scene}, {size}", metric)
-            name = f"{kernel}_{index}"
-            figure.savefig(folder / f"{name}.png", dpi=110, bbox_inches="tight")
-            svg = titled(figure, points)
-            (folder / f"{name}.svg").write_text(svg)
-            plt.close(figure)
-            figures.append((kernel, f"{scene}, {size}", metric, len(points), svg))
+            figures.append((kernel, f"{scene}, {size}", metric, len(points), save(figure, points, folder / f"{kernel}_{index}")))
+        levels = [row for row in report["frontier"] if row["kernel"] == kernel and "level" in row["knobs"]]
+        if levels:
+            figure = level_panels(levels, kernel)
+            metric = "|mean of x - t| in steps of the format"
+            figures.append((kernel, f"{levels[0]['scene']}, {levels[0]['size']}", metric, len(levels), save(figure, levels, folder / f"{kernel}_levels")))
     return figures
+
+
+def save(figure, points, path):
+    figure.savefig(path.with_suffix(".png"), dpi=110, bbox_inches="tight")
+    svg = titled(figure, points)
+    path.with_suffix(".svg").write_text(svg)
+    plt.close(figure)
+    return svg
+
+
+def level_panels(points, kernel):
+    """Drift of each level of a pyramid, a line a format."""
+    devices = list(dict.fromkeys(row["device"] for row in points))
+    formats = list(dict.fromkeys(row["options"]["format"] for row in points))
+    colours = dict(zip(formats, plt.cm.viridis(np.linspace(0.0, 0.9, len(formats)))))
+    figure, axes = plt.subplots(1, len(devices), figsize=(5.2 * len(devices), 3.4), sharey=True, squeeze=False)
+    for axis, device in zip(axes[0], devices):
+        axis.set_yscale("log")
+        axis.axhline(1 / 16, color="#aa3333", lw=1, ls="--")
+        axis.set_title(device if len(device) < 46 else device[:44] + "…", fontsize=9)
+        axis.set_xlabel("level (dashed: 1/16 step, what half up would drift a level)")
+        for kind in formats:
+            mine = sorted((row["knobs"]["level"], max(rows.total_error(row), FLOOR), index) for index, row in enumerate(points)
+                          if row["device"] == device and row["options"]["format"] == kind)
+            axis.plot([level for level, _, _ in mine], [drift for _, drift, _ in mine], color=colours[kind], lw=1, label=kind)
+            for level, drift, index in mine:
+                axis.plot([level], [drift], marker="o", ms=5, color=colours[kind], ls="", gid=f"point{index}")
+    axes[0][0].set_ylabel("|mean drift|, steps of the format")
+    axes[0][0].legend(frameon=False)
+    figure.suptitle(f"{kernel}: drift over the levels of {points[0]['scene']}, {points[0]['size']}", y=1.0)
+    figure.tight_layout()
+    return figure
 
 
 def colour_key(row):

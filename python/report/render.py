@@ -7,6 +7,8 @@ import json
 import pathlib
 import sys
 
+sys.dont_write_bytecode = True  # the source folder may not be ours
+
 
 def main():
     if len(sys.argv) != 2 or sys.argv[1].startswith("-"):

@@ -33,7 +33,7 @@ def options(row, every=False):
         if isinstance(value, bool):
             if value:
                 words.append(name)
-        elif every or value not in ("clamp", "buffer", ""):
+        elif every or value not in ("clamp", "buffer", "floor", "cells", 2):
             words.append(str(value))
     return " ".join(words)
 
