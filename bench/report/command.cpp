@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/program/commands.h"
+#include "bench/report/listing.h"
 #include "bench/report/measure.h"
 #include "bench/report/report.h"
 
@@ -10,7 +11,7 @@ namespace luxel::program {
 void add_report(CLI::App& app, int& exit_status) {
   struct Arguments {
     report::Settings settings;
-    std::string measure;
+    std::string measure, list;
     double best_guard = 0;
     bool first = false;
   };
@@ -24,7 +25,11 @@ void add_report(CLI::App& app, int& exit_status) {
   command->add_option("--image", a->settings.images, "EXR, HDR, PNG or NPY file to measure on; may be given again; default: the "
                                                      "photographs and skies of the data folder (LUXEL_DATA)")
       ->type_name("FILE")->allow_extra_args(false);
+  command->add_option("--only", a->settings.only, "measure only what has this text in its label, as the progress shows it; may be given again")
+      ->type_name("TEXT")->allow_extra_args(false);
   command->add_option("-o,--out", a->settings.out, "folder for report.json, index.html and pictures; default luxel-report")->type_name("DIR");
+  // What the report starts its own children with.
+  command->add_option("--list", a->list)->group("");
   command->add_option("--measure", a->measure)->group("");
   command->add_option("--guard-best", a->best_guard)->group("");
   command->add_flag("--first", a->first)->group("");
@@ -32,8 +37,9 @@ void add_report(CLI::App& app, int& exit_status) {
                   "Errors are the same to the last digit in every run; times are medians with quartiles, taken again while the\n"
                   "machine is busy. Photographs of the data folder that are absent are named and left out.");
   command->callback([a, &exit_status] {
-    exit_status = a->measure.empty() ? report::run_report(a->settings)
-                                     : report::measure_device(a->settings, a->measure, a->best_guard, a->first);
+    if (!a->list.empty()) exit_status = report::write_listing(a->list);
+    else if (!a->measure.empty()) exit_status = report::measure_device(a->settings, a->measure, a->best_guard, a->first);
+    else exit_status = report::run_report(a->settings);
   });
 }
 

@@ -34,13 +34,15 @@ const DeviceInfo* find(const std::vector<DeviceInfo>& all, const std::string& na
 
 }  // namespace
 
-Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names) {
+Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names,
+                                               const std::vector<std::string>& died) {
   std::vector<DeviceInfo> chosen;
   const auto add = [&](const DeviceInfo& d) {
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const DeviceInfo& c) { return c.index == d.index; })) chosen.push_back(d);
+    if (std::none_of(chosen.begin(), chosen.end(), [&](const DeviceInfo& c) { return c.index == d.index && c.id == d.id; })) chosen.push_back(d);
   };
   for (const std::string& name : names) {
     const DeviceInfo* found = find(all, name);
+    if (!found && std::find(died.begin(), died.end(), lower(name)) != died.end()) continue;
     if (!found) {
       std::string message = "--device is " + name + "; expected opencl, vulkan, cpu, or an index or part of a name of:";
       for (const DeviceInfo& d : all) message += " " + std::to_string(d.index) + " " + d.id + ",";

@@ -1,5 +1,6 @@
 #include "bench/report/measure.h"
 
+#include <algorithm>
 #include <csignal>
 
 #include "bench/report/child.h"
@@ -54,6 +55,10 @@ int measure_device(const Settings& settings, const std::string& device, double b
     if (first) append(jobs, mip_pictures(session, scenes));
   }
   for (const std::string& line : missing) session.note("skipped", line);
+  if (!settings.only.empty())
+    std::erase_if(jobs, [&](const Job& job) {
+      return std::none_of(settings.only.begin(), settings.only.end(), [&](const std::string& text) { return job.label.find(text) != std::string::npos; });
+    });
   session.run(jobs);
   session.emit_promises();
   return 0;

@@ -1,5 +1,6 @@
 #include "bench/report/report.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -7,6 +8,7 @@
 
 #include "bench/report/child.h"
 #include "bench/report/limits.h"
+#include "bench/report/listing.h"
 #include "bench/report/machine.h"
 #include "bench/report/progress.h"
 #include "bench/report/schema.h"
@@ -25,13 +27,15 @@ int misuse(const std::string& message) {
   return 2;
 }
 
-std::vector<std::string> child_arguments(const Settings& s, const DeviceInfo& device, double best, bool first) {
-  std::vector<std::string> argv{fs::read_symlink("/proc/self/exe").string(), "report", "--measure", std::to_string(device.index),
-                                "--guard-best", fmt::format("{}", best), "-o", s.out};
+std::string this_program() { return fs::read_symlink("/proc/self/exe").string(); }
+
+std::vector<std::string> child_arguments(const Settings& s, const std::string& device, double best, bool first) {
+  std::vector<std::string> argv{this_program(), "report", "--measure", device, "--guard-best", fmt::format("{}", best), "-o", s.out};
   if (s.quick) argv.push_back("--quick");
   if (first) argv.push_back("--first");
   for (const std::string& kernel : s.kernels) argv.insert(argv.end(), {"--kernel", kernel});
   for (const std::string& image : s.images) argv.insert(argv.end(), {"--image", image});
+  for (const std::string& text : s.only) argv.insert(argv.end(), {"--only", text});
   return argv;
 }
 
@@ -47,25 +51,32 @@ std::string opencv_device(const DeviceInfo& device) {
   return std::string("OPENCV_OPENCL_DEVICE=:") + (device.profile == "pocl" ? "CPU" : "GPU") + ":";
 }
 
-void measure(const Settings& s, const DeviceInfo& device, bool first, Gathered& gathered, Progress& progress, std::ofstream& rows) {
-  gathered.devices.push_back({{"id", device.id}, {"name", device.name}, {"driver", device.driver}, {"profile", device.profile},
-                              {"died", false}, {"problems", Json::array()}, {"limits", Json::array()}, {"first_use", Json::array()}});
+Json device_row(const DeviceInfo& d) {
+  return {{"id", d.id}, {"name", d.name}, {"driver", d.driver}, {"profile", d.profile}, {"died", false}, {"problems", Json::array()},
+          {"limits", Json::array()}, {"first_use", Json::array()}};
+}
+
+void has_died(Gathered& gathered, Progress& progress, const std::string& what) {
+  gathered.devices.back()["died"] = true;
+  gathered.devices.back()["problems"].push_back(what);
+  progress.line(what);
+}
+
+void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered, Progress& progress,
+             std::ofstream& rows) {
+  gathered.devices.push_back(device_row(device));
   progress.begin(device.id);
   std::vector<std::string> environment = child_environment(s);
   environment.push_back(opencv_device(device));
-  const std::string log = fmt::format("{}/device_{}.log", s.out, device.index);
-  const Ended ended = run_child(child_arguments(s, device, gathered.best_guard, first), environment, log, silence_s,
+  const std::string log = fmt::format("{}/device_{}.log", s.out, gathered.devices.size() - 1);
+  const Ended ended = run_child(child_arguments(s, name, gathered.best_guard, first), environment, log, silence_s,
                                 [&](const std::string& line) {
                                   if (const std::string row = take_line(gathered, line); !row.empty()) rows << row << std::endl;
                                   progress.update(gathered.last_done, gathered.last_of, gathered.last_label);
                                 });
-  if (ended.died() || ended.status != 0) {
-    const std::string what = fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
-                                         gathered.last_label.empty() ? "its start" : gathered.last_label, log);
-    gathered.devices.back()["died"] = true;
-    gathered.devices.back()["problems"].push_back(what);
-    progress.line(what);
-  }
+  if (ended.died() || ended.status != 0)
+    has_died(gathered, progress, fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
+                                             gathered.last_label.empty() ? "its start" : gathered.last_label, log));
   gathered.last_label.clear();
 }
 
@@ -105,11 +116,13 @@ int run_report(const Settings& settings) {
       return misuse(fmt::format("--kernel is {}; expected one of: {}", kernel, fmt::join(measured_kernels(), ", ")));
   for (const std::string& image : settings.images)
     if (!fs::is_regular_file(image)) return misuse(fmt::format("--image {} is not a file; expected an EXR, HDR, PNG or NPY file", image));
-  std::vector<std::string> problems;
-  const auto chosen = choose_devices(devices(&problems), settings.devices);
-  if (!chosen) return misuse(chosen.status().message());
   std::error_code error;
   fs::create_directories(settings.out + "/pictures", error);
+  const std::string listing_log = settings.out + "/devices.log";
+  const Listing listing = list_devices(
+      [](const std::string& what) { return std::vector<std::string>{this_program(), "report", "--list", what}; }, listing_log);
+  const auto chosen = choose_devices(listing.devices, settings.devices, listing.died);
+  if (!chosen) return misuse(chosen.status().message());
   if (!error) fs::remove_all(settings.out + "/cache", error);
   if (!error) fs::remove(settings.out + "/oracles.jsonl", error);
   std::ofstream rows(settings.out + "/rows.jsonl", std::ios::trunc);
@@ -117,7 +130,7 @@ int run_report(const Settings& settings) {
 
   Progress progress;
   if (settings.devices.empty())
-    for (const std::string& problem : problems) progress.line(problem);
+    for (const std::string& problem : listing.problems) progress.line(problem);
   Json about = machine();
   about["quick"] = settings.quick;
   about["limits"] = machine_limits(settings.quick);
@@ -125,8 +138,14 @@ int run_report(const Settings& settings) {
   gathered.best_guard = about["limits"].back()["rate"].get<double>();
   bool first = true;
   for (const DeviceInfo& device : chosen.value()) {
-    measure(settings, device, first, gathered, progress, rows);
+    measure(settings, device, name_to_open(device, listing.devices), first, gathered, progress, rows);
     first = false;
+  }
+  for (const std::string& api : listing.died) {
+    const auto named = std::find(settings.devices.begin(), settings.devices.end(), api);
+    if (!settings.devices.empty() && named == settings.devices.end()) continue;
+    gathered.devices.push_back(device_row({-1, Api::cpu, api, "", "", api}));
+    has_died(gathered, progress, fmt::format("{} died while its driver was loaded; see {}", api, listing_log));
   }
   progress.end();
   fs::remove_all(settings.out + "/cache", error);

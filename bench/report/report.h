@@ -15,9 +15,10 @@ namespace luxel::report {
 int run_report(const Settings& settings);
 
 /// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where `names`
-/// is empty. Errors: missing_driver for a name that no device has; invalid_argument for the execution in double, which is
-/// what every row is compared with.
-Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names);
+/// is empty. Names of APIs that died are left out. Errors: missing_driver for a name that no device has; invalid_argument
+/// for the execution in double, which is what every row is compared with.
+Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names,
+                                               const std::vector<std::string>& died = {});
 
 /// Rows of all sections as they come from the children.
 struct Gathered {

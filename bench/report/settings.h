@@ -10,6 +10,7 @@ struct Settings {
   std::vector<std::string> devices;  // as Context::open takes them; empty: all but the execution in double
   std::vector<std::string> kernels;  // empty: all
   std::vector<std::string> images;   // files beside the built-in scenes; empty: those of the data folder
+  std::vector<std::string> only;     // measure only what has one of these in its label; empty: everything
   std::string out = "luxel-report";
 
   bool wants(const std::string& kernel) const {

@@ -1,0 +1,283 @@
+// The report: frontier, shape, children that die, and the program itself on a few rows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bench/report/child.h"
+#include "bench/report/frontier.h"
+#include "bench/report/report.h"
+#include "bench/report/schema.h"
+#include "bench/report/stats.h"
+#include "tests/support/run.h"
+
+namespace luxel::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json row(const std::string& group, double error, double q1, double median, double q3) {
+  return {{"kernel", "k"}, {"variant", "v"}, {"device", "cpu:float"}, {"scene", "s"}, {"size", "1x1"}, {"options", Json::object()},
+          {"knobs", Json::object()},
+          {"time_ms", {{"build", nullptr}, {"update", nullptr}, {"shade", {{"median", median}, {"q1", q1}, {"q3", q3}, {"n", 9}}}}},
+          {"error", {{"metric", "m"}, {"rounding", error}, {"storage", 0}, {"device", 0}, {"method", 0}, {"discretization", nullptr},
+                     {"model", nullptr}, {"stderr", nullptr}}},
+          {"bytes", 1}, {"flops", 1}, {"memory_bytes", 1}, {"on_frontier", nullptr}, {"group", group}};
+}
+
+Json device(const std::string& id, bool died = false) {
+  return {{"id", id}, {"name", "n"}, {"driver", "d"}, {"profile", "p"}, {"died", died}, {"problems", Json::array()},
+          {"limits", Json::array()}, {"first_use", Json::array()}};
+}
+
+Json stability(bool pass) {
+  return {{"kernel", "k"}, {"case", "c"}, {"device", "cpu:float"}, {"promise", "p"}, {"bound", 1}, {"measured", pass ? 0 : 2}, {"pass", pass}};
+}
+
+TEST(ReportStats, QuartilesAreInterpolated) {
+  const Sample s = summarise({4, 1, 3, 2});
+  EXPECT_DOUBLE_EQ(s.q1, 1.75);
+  EXPECT_DOUBLE_EQ(s.median, 2.5);
+  EXPECT_DOUBLE_EQ(s.q3, 3.25);
+  EXPECT_EQ(s.n, 4);
+  EXPECT_EQ(summarise({7}).median, 7);
+  EXPECT_EQ(summarise({}).n, 0);
+}
+
+TEST(ReportFrontier, DominatesOnlyBeyondTheQuartiles) {
+  std::vector<Json> rows{row("a", 1e-3, 9, 10, 11),     // beaten by the next: not larger error, q3 6 < q1 9
+                         row("a", 1e-3, 4, 5, 6),
+                         row("a", 1e-2, 5.5, 7, 8),     // the quartiles overlap: not beaten
+                         row("a", 1e-2, 6.5, 7, 8),     // q1 above 6: beaten
+                         row("a", 1e-6, 90, 100, 110),  // slow but exact
+                         row("b", 1, 900, 1000, 1100),  // alone in its group
+                         row("a", std::nan(""), 1, 1, 1)};
+  mark_frontier(rows);
+  const bool expected[] = {false, true, true, false, true, true, false};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i]["on_frontier"], expected[i]) << i;
+    EXPECT_FALSE(rows[i].contains("group"));
+  }
+}
+
+TEST(ReportFrontier, ErrorIsTheSumOfItsParts) {
+  Json r = row("a", 1, 1, 1, 1);
+  r["error"]["storage"] = 2;
+  r["error"]["device"] = nullptr;
+  r["error"]["method"] = 4;
+  EXPECT_EQ(total_error(r), 7);
+  r["time_ms"]["build"] = {{"median", 2}, {"q1", 1}, {"q3", 3}, {"n", 5}};
+  EXPECT_EQ(total_time(r).median, 3);
+}
+
+Json whole_report() {
+  Gathered g;
+  g.devices.push_back(device("cpu:float"));
+  g.frontier.push_back(row("a", 0, 1, 1, 1));
+  g.stability.push_back(stability(true));
+  return assemble(std::move(g), {{"cpu", "c"}});
+}
+
+TEST(ReportSchema, AcceptsTheReportAndNamesWhatIsWrong) {
+  EXPECT_TRUE(check_schema(whole_report()).empty());
+  const auto defect = [](auto change) {
+    Json report = whole_report();
+    change(report);
+    const auto wrong = check_schema(report);
+    return wrong.empty() ? std::string() : wrong.front();
+  };
+  EXPECT_EQ(defect([](Json& r) { r.erase("peers"); }), "report.peers is missing");
+  EXPECT_EQ(defect([](Json& r) { r["extra"] = 1; }), "report.extra is unknown");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0].erase("flops"); }), "row 0: frontier.flops is missing");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["group"] = 1; r["frontier"][0]["more"] = 1; }), "row 0: frontier.more is unknown");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["error"]["rounding"] = "0"; }), "row 0: frontier.error.rounding is a string; expected type n?");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["time_ms"]["shade"].erase("q3"); }), "row 0: frontier.time_ms.shade.q3 is missing");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["device"] = "gpu"; }), "row 0: frontier.device is gpu; expected opencl..., vulkan... or cpu...");
+  EXPECT_EQ(defect([](Json& r) { r["stability"][0]["pass"] = 1; }), "row 0: stability.pass is a number; expected type b");
+}
+
+TEST(ReportStatus, IsOneWhereAPromiseIsBrokenOrADeviceDied) {
+  EXPECT_EQ(exit_status_of(whole_report()), 0);
+  Json broken = whole_report();
+  broken["stability"].push_back(stability(false));
+  EXPECT_EQ(exit_status_of(broken), 1);
+  Json died = whole_report();
+  died["devices"].push_back(device("opencl:x", true));
+  EXPECT_EQ(exit_status_of(died), 1);
+}
+
+TEST(ReportRows, DamagedLinesAreNoRows) {
+  Gathered g;
+  g.devices.push_back(device("cpu:float"));
+  const std::string good = Json({{"section", "stability"}, {"row", stability(false)}}).dump();
+  EXPECT_EQ(take_line(g, good), good);
+  for (const std::string& bad : {good.substr(0, good.size() / 2), std::string("noise of a driver"), std::string("[1,2]"), std::string("{}"),
+                                 std::string(R"({"section":"stability","row":{"kernel":"k"}})"), std::string(R"({"section":"x","row":{}})")})
+    EXPECT_EQ(take_line(g, bad), "") << bad;
+  EXPECT_EQ(g.stability.size(), 1u);
+}
+
+std::vector<DeviceInfo> machine_devices() {
+  return {{0, Api::opencl, "pthread-Xeon", "pocl", "pocl", "opencl:pthread-Xeon"}, {1, Api::vulkan, "llvmpipe (LLVM)", "lavapipe", "lavapipe", "vulkan:llvmpipe (LLVM)"},
+          {2, Api::cpu, "C++ float", "", "reference", "cpu:float"}, {3, Api::cpu, "C++ double", "", "reference", "cpu:double"}};
+}
+
+TEST(ReportDevices, AreChosenByNameAndTheOracleIsNone) {
+  const auto ids = [](const std::vector<std::string>& names) {
+    std::string text;
+    const auto chosen = choose_devices(machine_devices(), names);
+    if (!chosen) return chosen.status().message();
+    for (const DeviceInfo& d : chosen.value()) text += std::to_string(d.index);
+    return text;
+  };
+  EXPECT_EQ(ids({}), "201");  // the C++ execution first
+  EXPECT_EQ(ids({"vulkan", "opencl", "1"}), "10");
+  EXPECT_EQ(ids({"LLVMPIPE"}), "1");
+  EXPECT_EQ(ids({"cpu"}), "2");
+  EXPECT_EQ(ids({"cpu:double"}), "--device is cpu:double; expected another: every row is compared with cpu:double");
+  EXPECT_NE(ids({"gtx"}).find("--device is gtx; expected opencl, vulkan, cpu, or an index or part of a name of: 0 opencl:pthread-Xeon"), std::string::npos);
+  EXPECT_TRUE(choose_devices({machine_devices()[2]}, {"opencl", "cpu"}, {"opencl"}).ok());
+}
+
+TEST(ReportChild, TellsHowItEndedAndKeepsItsLines) {
+  const fs::path log = fs::path(testing::TempDir()) / "luxel_child.log";
+  const auto shell = [&](const std::string& script, std::vector<std::string>& lines, int silence = 30) {
+    return run_child({"/bin/sh", "-c", script}, {"LUXEL_TEST_WORD=word"}, log.string(), silence, [&](const std::string& l) { lines.push_back(l); });
+  };
+  std::vector<std::string> lines;
+  Ended ended = shell("echo one >&3; echo $LUXEL_TEST_WORD >&3; echo log; exit 4", lines);
+  EXPECT_FALSE(ended.died());
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_EQ(lines, (std::vector<std::string>{"one", "word"}));
+  std::ifstream file(log);
+  std::string text;
+  std::getline(file, text);
+  EXPECT_EQ(text, "log");
+
+  lines.clear();
+  ended = shell("echo before >&3; kill -SEGV $$", lines);
+  EXPECT_TRUE(ended.died());
+  EXPECT_EQ(ended.signal, SIGSEGV);
+  EXPECT_EQ(lines, std::vector<std::string>{"before"});
+  EXPECT_NE(ended.reason(1).find("signal 11"), std::string::npos);
+
+  ended = shell("exec sleep 30", lines, 1);
+  EXPECT_TRUE(ended.hung);
+  EXPECT_EQ(ended.reason(1), "no answer for 1 s");
+  EXPECT_FALSE(run_child({"/nonexistent/program"}, {}, log.string(), 5, [](const std::string&) {}).started);
+}
+
+// --- The program itself ---------------------------------------------------------------------------------------------------
+
+struct Outcome {
+  int status = -1;
+  Json report;
+  std::string stdout_text, stderr_text;
+};
+
+std::string slurp(const fs::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+Outcome run_program(const std::string& name, const std::string& arguments, const std::string& environment = "") {
+  const fs::path folder = fs::path(testing::TempDir()) / ("luxel_report_" + name);
+  fs::remove_all(folder);
+  const std::string out = folder.string() + ".out", err = folder.string() + ".err";
+  const std::string command = environment + " " LUXEL_PROGRAM " report " + arguments + " -o " + folder.string() + " >" + out + " 2>" + err;
+  Outcome outcome;
+  const int state = std::system(command.c_str());
+  outcome.status = WIFEXITED(state) ? WEXITSTATUS(state) : -1;
+  outcome.report = Json::parse(slurp(folder / "report.json"), nullptr, false);
+  outcome.stdout_text = slurp(out);
+  outcome.stderr_text = slurp(err);
+  return outcome;
+}
+
+std::string test_device_options() {
+  std::string options;
+  for (const std::string& d : test_devices()) options += " --device " + d;
+  return options;
+}
+
+// Every number of a report that is no time.
+Json errors_of(const Json& report) {
+  Json all = Json::array();
+  for (const Json& r : report["frontier"]) all.push_back({r["kernel"], r["device"], r["scene"], r["options"], r["knobs"], r["error"]});
+  for (const Json& r : report["stability"]) all.push_back({r["case"], r["device"], r["measured"]});
+  return all;
+}
+
+constexpr const char* few_rows =
+    " --quick --only 'on step' --only 'case sigma 0 radius' --only 'case opacity 1, isotropic' --only 'mip_build isotropic f16x4 on multiples' "
+    "--only 'limit triad' --only 'difference on landscape'";
+
+TEST(Report, TwoRunsAgreeOnEveryErrorToTheLastDigit) {
+  const Outcome first = run_program("first", few_rows + test_device_options());
+  ASSERT_EQ(first.status, 0) << first.stderr_text << first.stdout_text;
+  const std::vector<std::string> wrong = check_schema(first.report);
+  EXPECT_TRUE(wrong.empty()) << wrong.front();
+  EXPECT_EQ(first.report["devices"].size(), test_devices().size());
+  EXPECT_GE(first.report["frontier"].size(), 10 * test_devices().size());
+  EXPECT_GE(first.report["stability"].size(), 10 * test_devices().size());
+  for (const Json& d : first.report["devices"]) EXPECT_FALSE(d["limits"].empty()) << d["id"];
+  for (const Json& r : first.report["frontier"]) {
+    EXPECT_EQ(r["error"]["device"], 0) << r.dump();
+    EXPECT_GT(total_time(r).median, 0);
+    EXPECT_LE(total_time(r).q1, total_time(r).median);
+  }
+  EXPECT_NE(first.stdout_text.find("gaussian_blur on "), std::string::npos);
+  const Outcome second = run_program("second", few_rows + test_device_options());
+  EXPECT_EQ(errors_of(first.report), errors_of(second.report));
+}
+
+TEST(Report, RowsOfTheFileAreThoseOfTheReport) {
+  const Outcome o = run_program("rows", " --quick --device cpu --kernel gaussian_blur --only 'on step'");
+  ASSERT_EQ(o.status, 0) << o.stderr_text;
+  std::ifstream file(fs::path(testing::TempDir()) / "luxel_report_rows" / "rows.jsonl");
+  std::size_t frontier = 0;
+  for (std::string line; std::getline(file, line);) {
+    const Json j = Json::parse(line, nullptr, false);
+    ASSERT_TRUE(j.is_object()) << line;
+    EXPECT_TRUE(check_row(j["section"], j["row"]).empty());
+    frontier += j["section"] == "frontier" ? 1 : 0;
+  }
+  EXPECT_EQ(frontier, o.report["frontier"].size());
+  EXPECT_GT(frontier, 0u);
+}
+
+TEST(Report, ADriverThatDiesLosesOnlyItsOwnRowsAndIsNamed) {
+  const fs::path vendors = fs::path(testing::TempDir()) / "luxel_crashing_vendors";
+  fs::create_directories(vendors);
+  std::ofstream(vendors / "crash.icd") << LUXEL_CRASHING_DRIVER << "\n";
+  const std::string environment = "OCL_ICD_VENDORS=" + vendors.string();
+  const Outcome o = run_program("died", " --quick --kernel gaussian_blur --only 'on step' --device opencl --device cpu", environment);
+#if LUXEL_OPENCL
+  EXPECT_EQ(o.status, 1) << o.stderr_text;
+  EXPECT_NE(o.stderr_text.find("luxel: opencl died"), std::string::npos) << o.stderr_text;
+  ASSERT_EQ(o.report["devices"].size(), 2u);
+  EXPECT_EQ(o.report["devices"][1]["died"], true);
+#endif
+  ASSERT_FALSE(o.report["frontier"].empty());
+  for (const Json& r : o.report["frontier"]) EXPECT_EQ(r["device"], "cpu:float");
+  EXPECT_TRUE(check_schema(o.report).empty());
+}
+
+TEST(Report, WrongUseIsOneLineAndStatusTwo) {
+  for (const auto& [arguments, text] : {std::pair<std::string, std::string>{"--kernel blur", "luxel: --kernel is blur; expected one of: gaussian_blur, mip_build\n"},
+                                        {"--image /nonexistent.png", "luxel: --image /nonexistent.png is not a file; expected an EXR, HDR, PNG or NPY file\n"},
+                                        {"--device cpu:double", "luxel: --device is cpu:double; expected another: every row is compared with cpu:double\n"}}) {
+    const Outcome o = run_program("misuse", arguments);
+    EXPECT_EQ(o.status, 2) << arguments;
+    EXPECT_EQ(o.stderr_text, text);
+    EXPECT_EQ(o.stdout_text, "");
+  }
+}
+
+}  // namespace
+}  // namespace luxel::report
