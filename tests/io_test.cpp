@@ -56,8 +56,9 @@ Bytes bytes_of_text(std::string_view text) { return Bytes(text.begin(), text.end
 
 template <class T>
 void put(Bytes& to, const T& value) {
-  const auto* p = reinterpret_cast<const std::uint8_t*>(&value);
-  to.insert(to.end(), p, p + sizeof value);
+  std::array<std::uint8_t, sizeof value> bytes;
+  std::memcpy(bytes.data(), &value, sizeof value);
+  for (const std::uint8_t b : bytes) to.push_back(b);
 }
 
 // Equal as numbers, NaN equal to NaN.
