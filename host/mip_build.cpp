@@ -27,19 +27,23 @@ const char* name(MipVariant v) {
 
 const char* formats_of(MipVariant v) {
   switch (v) {
-    case MipVariant::isotropic: case MipVariant::gaussian3: return "f32x1, f32x2, f32x4, f16x4 or unorm8x4";
+    case MipVariant::isotropic:
+    case MipVariant::gaussian3: return "f32x1, f32x4, f16x4 or unorm8x4";
     case MipVariant::anisotropic: return "f32x4, f16x4 or unorm8x4";
-    case MipVariant::min: case MipVariant::max: return "f32x1";
+    case MipVariant::min:
+    case MipVariant::max: return "f32x1";
     default: return "f32x2 or f16x2";
   }
 }
 
 bool takes(MipVariant v, Format f) {
   switch (v) {
-    case MipVariant::isotropic: case MipVariant::gaussian3:
-      return f == Format::f32x1 || f == Format::f32x2 || f == Format::f32x4 || f == Format::f16x4 || f == Format::unorm8x4;
+    case MipVariant::isotropic:
+    case MipVariant::gaussian3:
+      return f == Format::f32x1 || f == Format::f32x4 || f == Format::f16x4 || f == Format::unorm8x4;
     case MipVariant::anisotropic: return f == Format::f32x4 || f == Format::f16x4 || f == Format::unorm8x4;
-    case MipVariant::min: case MipVariant::max: return f == Format::f32x1;
+    case MipVariant::min:
+    case MipVariant::max: return f == Format::f32x1;
     default: return f == Format::f32x2 || f == Format::f16x2;
   }
 }
@@ -51,8 +55,7 @@ Format format_of_level_0(const MipBuildParams& p) {
 
 int coarser(const MipBuildParams& p, int n) {
   if (n == 1) return 1;
-  if (bounds(p.variant))
-    return p.sizes == MipSizes::ceil ? (n + p.ratio - 1) / p.ratio : std::max(1, n / p.ratio);
+  if (bounds(p.variant)) return p.sizes == MipSizes::ceil ? (n + p.ratio - 1) / p.ratio : std::max(1, n / p.ratio);
   return p.variant == MipVariant::gaussian3 && p.samples == MipSamples::vertices && n > 2 ? (n + 1) / 2 : n / 2;
 }
 
@@ -88,8 +91,8 @@ Status check_choices(const MipBuildParams& p) {
   LUXEL_CHECK(only_for(p.sizes == MipSizes::ceil && !bounds(p.variant), "MipBuildParams.sizes", "ceil", "floor" + of));
   if (p.ratio != 2 && !(p.ratio == 16 && bounds(p.variant)))
     return out_of_range("MipBuildParams.ratio", p.ratio, (bounds(p.variant) ? "2 or 16" : "2") + of);
-  LUXEL_CHECK(only_for(p.samples == MipSamples::vertices && p.variant != MipVariant::gaussian3, "MipBuildParams.samples",
-                       "vertices", "cells" + of));
+  LUXEL_CHECK(only_for(p.samples == MipSamples::vertices && p.variant != MipVariant::gaussian3,
+                       "MipBuildParams.samples", "vertices", "cells" + of));
   if (p.variant == MipVariant::anisotropic)
     LUXEL_CHECK(check_range("MipBuildParams.directions", p.directions, 1u, static_cast<unsigned>(mip_all)));
   else if (p.directions != mip_all)
@@ -105,10 +108,14 @@ Status check_vertices(const MipBuildParams& p, int levels) {
   for (int level = 0; level < levels; ++level)
     for (int axis = 0; axis < 3; ++axis) {
       if (e[axis] > 2 && e[axis] % 2 == 0)
-        return out_of_range(axis_fields[axis], axis == 0 ? p.width : axis == 1 ? p.height : p.depth,
-                            "an extent that is odd, 1 or 2 at every level that is halved (samples on vertices); level " +
-                                std::to_string(level) + " has " + std::to_string(e[axis]) +
-                                (level > 0 ? "; or MipBuildParams.levels of 1.." + std::to_string(level) : ""));
+        return out_of_range(
+            axis_fields[axis],
+            axis == 0   ? p.width
+            : axis == 1 ? p.height
+                        : p.depth,
+            "an extent that is odd, 1 or 2 at every level that is halved (samples on vertices); level " +
+                std::to_string(level) + " has " + std::to_string(e[axis]) +
+                (level > 0 ? "; or MipBuildParams.levels of 1.." + std::to_string(level) : ""));
       e[axis] = coarser(p, e[axis]);
     }
   return {};
@@ -163,8 +170,10 @@ class Pyramid {
     Resource finest{mip_level_name(0)};
     finest.format = format_of_level_0(p_);
     finest.extent = mip_extent(p_, 0);
-    if (p_.input == Input::image) finest.kind = ResourceKind::image;
-    else finest.bytes = bytes_of(0, finest.format);
+    if (p_.input == Input::image)
+      finest.kind = ResourceKind::image;
+    else
+      finest.bytes = bytes_of(0, finest.format);
     slots_.push_back(planner_.resource(finest));
     for (int level = 1; level <= levels_; ++level) {
       if (p_.variant != MipVariant::anisotropic) {
@@ -208,14 +217,16 @@ class Pyramid {
     return p_.variant == MipVariant::anisotropic ? slots_[(level - 1) * 6 + 1 + direction] : slots_[level];
   }
 
-  // The module that reads a level of `from` and writes `to`.
-  std::string module(int level, Format from, Format to) const {
+  // The module that reads a level of `from` and writes `to`. `texels`: whether it can read texel buffers.
+  std::string module(int level, Format from, Format to, bool texels) const {
     const bool image = level == 0 && p_.input == Input::image;
-    std::string text = image ? (p_.depth > 1 ? "volume_" : "image_") : "";
+    std::string text = image ? (p_.depth > 1 ? "volume_" : "image_") : texels && profile_.texels ? "texels_" : "";
     text += luxel::name(from);
     return from == to ? text : text + "_" + luxel::name(to);
   }
-  std::string label(const std::string& what, int level) const { return "mip_build " + what + " " + std::to_string(level); }
+  std::string label(const std::string& what, int level) const {
+    return "mip_build " + what + " " + std::to_string(level);
+  }
 
   void cost(int level, int made, Format from, double flops_per_texel) {
     double bytes = texels(level - 1) * static_cast<double>(bytes_per_pixel(from));
@@ -231,8 +242,8 @@ class Pyramid {
     return {static_cast<std::uint32_t>(e[0]), static_cast<std::uint32_t>(e[1]), static_cast<std::uint32_t>(e[2])};
   }
 
-  // Whether levels level .. level+2 can come from one dispatch of workgroups: sizes that halve without a rest, and where
-  // sizes are rounded up any.
+  // Whether levels level .. level+2 can come from one dispatch of workgroups: any sizes that are rounded up, else those
+  // that halve without a rest.
   bool tiles(int level) const {
     if (!profile_.workgroup_memory || level + 2 > levels_) return false;
     if (bounds(p_.variant) && p_.ratio != 2) return false;
@@ -252,30 +263,40 @@ class Pyramid {
     const Slot to = planner_.resource(counters);
     const Format from = format_of_level_0(p_);
     const Extent e = mip_extent(p_, 0);
-    planner_.pass("mip_count", module(0, from, from), "mip_build count", invocations(e), profile_.voxels.workgroup,
-                  {{"src_x", e[0]}, {"src_y", e[1]}, {"src_z", e[2]}}, {{"HIDDEN", channels(from) == 4}},
-                  {{"src", slot(0)}, {"counters", to}});
+    planner_.pass("mip_count", module(0, from, from, false), "mip_build count", invocations(e),
+                  profile_.voxels.workgroup, {{"src_x", e[0]}, {"src_y", e[1]}, {"src_z", e[2]}},
+                  {{"HIDDEN", channels(from) == 4}}, {{"src", slot(0)}, {"counters", to}});
     planner_.cost(0, texels(0) * static_cast<double>(bytes_per_pixel(from)));
   }
 
   int average(int level) {
     const Extent s = mip_extent(p_, level - 1), d = mip_extent(p_, level);
-    const std::string from = module(level - 1, p_.format, p_.format);
     const double taps = 8.0 * channels(p_.format);
     const int clean = level == 1 && channels(p_.format) == 4;
     if (tiles(level)) {
       const Extent tile = p_.depth > 1 ? Extent{8, 8, 8} : Extent{16, 16, 1};
-      planner_.pass("mip_average_tile", from, label("average, three levels from", level), invocations(d), invocations(tile),
-                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"clean", clean}},
-                    {{"TILE_X", tile[0]}, {"TILE_Y", tile[1]}, {"TILE_Z", tile[2]}},
-                    {{"src", slot(level - 1)}, {"dst_a", slot(level)}, {"dst_b", slot(level + 1)}, {"dst_c", slot(level + 2)}});
+      planner_.pass(
+          "mip_average_tile", module(level - 1, p_.format, p_.format, false),
+          label("average, three levels from", level), invocations(d), invocations(tile),
+          {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"clean", clean}},
+          {{"TILE_X", tile[0]}, {"TILE_Y", tile[1]}, {"TILE_Z", tile[2]}},
+          {{"src", slot(level - 1)}, {"dst_a", slot(level)}, {"dst_b", slot(level + 1)}, {"dst_c", slot(level + 2)}});
       cost(level, 3, p_.format, taps);
       return 3;
     }
-    planner_.pass("mip_average", from, label("average", level), invocations(d), profile_.voxels.workgroup,
-                  {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]},
+    planner_.pass("mip_average", module(level - 1, p_.format, p_.format, true), label("average", level), invocations(d),
+                  profile_.voxels.workgroup,
+                  {{"src_x", s[0]},
+                   {"src_y", s[1]},
+                   {"src_z", s[2]},
+                   {"dst_x", d[0]},
+                   {"dst_y", d[1]},
+                   {"dst_z", d[2]},
                    {"clean", clean}},
-                  {{"MODE_X", mode_of(p_, s[0])}, {"MODE_Y", mode_of(p_, s[1])}, {"MODE_Z", mode_of(p_, s[2])}},
+                  {{"MODE_X", mode_of(p_, s[0])},
+                   {"MODE_Y", mode_of(p_, s[1])},
+                   {"MODE_Z", mode_of(p_, s[2])},
+                   {"SPLIT", profile_.voxels.split}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});
     cost(level, 1, p_.format, taps);
     return 1;
@@ -283,24 +304,41 @@ class Pyramid {
 
   int directional(int level) {
     const Extent s = mip_extent(p_, level - 1), d = mip_extent(p_, level);
-    const std::string from = module(level - 1, p_.format, p_.format);
+    const std::string from = module(level - 1, p_.format, p_.format, true);
     const bool halves = std::none_of(s.begin(), s.end(), [](int n) { return n > 1 && n % 2 == 1; });
     if (level == 1 && p_.directions == mip_all && halves) {
-      planner_.pass("mip_directional_six", from, label("six directions", level), invocations(d), profile_.voxels.workgroup,
-                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}},
-                    {{"PAIR_X", s[0] > 1}, {"PAIR_Y", s[1] > 1}, {"PAIR_Z", s[2] > 1}},
-                    {{"src", slot(0)}, {"dst_px", slot(1, 0)}, {"dst_nx", slot(1, 1)}, {"dst_py", slot(1, 2)},
-                     {"dst_ny", slot(1, 3)}, {"dst_pz", slot(1, 4)}, {"dst_nz", slot(1, 5)}});
+      planner_.pass(
+          "mip_directional_six", from, label("six directions", level), invocations(d), profile_.voxels.workgroup,
+          {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}},
+          {{"PAIR_X", s[0] > 1}, {"PAIR_Y", s[1] > 1}, {"PAIR_Z", s[2] > 1}, {"SPLIT", profile_.voxels.split}},
+          {{"src", slot(0)},
+           {"dst_px", slot(1, 0)},
+           {"dst_nx", slot(1, 1)},
+           {"dst_py", slot(1, 2)},
+           {"dst_ny", slot(1, 3)},
+           {"dst_pz", slot(1, 4)},
+           {"dst_nz", slot(1, 5)}});
       planner_.cost(texels(1) * 6 * 44, (texels(0) + 6 * texels(1)) * static_cast<double>(bytes_per_pixel(p_.format)));
       return 1;
     }
     for (int direction = 0; direction < 6; ++direction) {
       if (!(p_.directions >> direction & 1)) continue;
       const int axis = direction / 2, u = axis == 0 ? 1 : 0, v = axis == 2 ? 1 : 2;
-      planner_.pass("mip_directional", from, label(direction_names[direction], level), invocations(d), profile_.voxels.workgroup,
-                    {{"src_x", s[0]}, {"src_y", s[1]}, {"src_z", s[2]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"dst_z", d[2]},
-                     {"axis", axis}, {"backward", direction % 2}, {"clean", level == 1}},
-                    {{"MODE_ALONG", mode_of(p_, s[axis])}, {"MODE_U", mode_of(p_, s[u])}, {"MODE_V", mode_of(p_, s[v])}},
+      planner_.pass("mip_directional", from, label(direction_names[direction], level), invocations(d),
+                    profile_.voxels.workgroup,
+                    {{"src_x", s[0]},
+                     {"src_y", s[1]},
+                     {"src_z", s[2]},
+                     {"dst_x", d[0]},
+                     {"dst_y", d[1]},
+                     {"dst_z", d[2]},
+                     {"axis", axis},
+                     {"backward", direction % 2},
+                     {"clean", level == 1}},
+                    {{"MODE_ALONG", mode_of(p_, s[axis])},
+                     {"MODE_U", mode_of(p_, s[u])},
+                     {"MODE_V", mode_of(p_, s[v])},
+                     {"SPLIT", profile_.voxels.split}},
                     {{"src", slot(level - 1, direction)}, {"dst", slot(level, direction)}});
       cost(level, 1, p_.format, 44);
     }
@@ -312,16 +350,18 @@ class Pyramid {
     const Format from = level == 1 ? format_of_level_0(p_) : p_.format;
     const int upper = p_.variant == MipVariant::max;
     if (tiles(level)) {
-      planner_.pass("mip_bounds_tile", module(level - 1, from, p_.format), label("bounds, three levels from", level),
-                    invocations(d), {16, 16, 1}, {{"src_x", s[0]}, {"src_y", s[1]}}, {{"UPPER", upper}},
-                    {{"src", slot(level - 1)}, {"dst_a", slot(level)}, {"dst_b", slot(level + 1)}, {"dst_c", slot(level + 2)}});
+      planner_.pass(
+          "mip_bounds_tile", module(level - 1, from, p_.format, false), label("bounds, three levels from", level),
+          invocations(d), {16, 16, 1}, {{"src_x", s[0]}, {"src_y", s[1]}}, {{"UPPER", upper}},
+          {{"src", slot(level - 1)}, {"dst_a", slot(level)}, {"dst_b", slot(level + 1)}, {"dst_c", slot(level + 2)}});
       cost(level, 3, from, 3.0 * channels(p_.format));
       return 3;
     }
     const bool floor = p_.sizes == MipSizes::floor;
     const auto taps = [&](int n) { return floor && n % 2 == 1 && n > 1 ? 3 : 2; };
-    planner_.pass("mip_bounds", module(level - 1, from, p_.format), label("bounds", level), invocations(d),
-                  profile_.voxels.workgroup, {{"src_x", s[0]}, {"src_y", s[1]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"cover_rest", floor}},
+    planner_.pass("mip_bounds", module(level - 1, from, p_.format, true), label("bounds", level), invocations(d),
+                  profile_.voxels.workgroup,
+                  {{"src_x", s[0]}, {"src_y", s[1]}, {"dst_x", d[0]}, {"dst_y", d[1]}, {"cover_rest", floor}},
                   {{"UPPER", upper}, {"RATIO", p_.ratio}, {"TAPS_X", taps(s[0])}, {"TAPS_Y", taps(s[1])}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});
     cost(level, 1, from, (p_.ratio * p_.ratio - 1.0) * channels(p_.format));
@@ -331,7 +371,7 @@ class Pyramid {
   int moments(int level) {
     const Extent s = mip_extent(p_, level - 1), d = mip_extent(p_, level);
     const Format from = level == 1 ? format_of_level_0(p_) : p_.format;
-    planner_.pass("mip_moments", module(level - 1, from, p_.format), label("moments", level), invocations(d),
+    planner_.pass("mip_moments", module(level - 1, from, p_.format, true), label("moments", level), invocations(d),
                   profile_.voxels.workgroup, {{"src_x", s[0]}, {"src_y", s[1]}, {"dst_x", d[0]}, {"dst_y", d[1]}},
                   {{"MODE_X", mode_of(p_, s[0])}, {"MODE_Y", mode_of(p_, s[1])}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});

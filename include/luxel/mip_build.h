@@ -6,9 +6,9 @@
 namespace luxel {
 
 enum class MipVariant {
-  isotropic,    // mean of 2 x 2 x 2 (premultiplied colour and opacity); opacity stays that of a path through a finest voxel
-  anisotropic,  // six volumes, one a direction: pairs composited front to back, then the mean of four; opacity of a path
-                // through a voxel of the level
+  isotropic,    // mean of 2 x 2 x 2 of premultiplied colour and opacity; the latter stays that of a finest voxel
+  anisotropic,  // six volumes, one a direction: pairs composited front to back, then the mean of four; opacity of a
+                // path through a voxel of the level
   gaussian3,    // 1-2-1 (vertices) or 1-3-3-1 (cells) along each axis
   min,          // lower bound
   max,          // upper bound
@@ -25,16 +25,16 @@ enum class MipSizes {
 /// Where gaussian3's samples are.
 enum class MipSamples { cells, vertices };
 
-/// A set of directions of anisotropic, one bit each. px: what somebody sees who looks along +x.
+/// A set of directions of anisotropic, one bit each. px: seen by who looks along +x.
 enum MipDirections : unsigned { mip_px = 1, mip_nx = 2, mip_py = 4, mip_ny = 8, mip_pz = 16, mip_nz = 32, mip_all = 63 };
 
 struct MipBuildParams {
   int width = 0;    // texels of level 0, 1..65535
   int height = 0;   // 1..65535
-  int depth = 1;    // 1..65535; volumes of isotropic, anisotropic and gaussian3, else 1
+  int depth = 1;    // 1..65535; 1 for bounds and moments
   int levels = 0;   // levels that are made; 0: until every extent is 1 (ratio 16: one)
   MipVariant variant = MipVariant::isotropic;
-  /// Of the levels that are made: f32x1, f32x2, f32x4, f16x4, unorm8x4 (isotropic, gaussian3), f32x4, f16x4, unorm8x4
+  /// Of the levels that are made: f32x1, f32x4, f16x4, unorm8x4 (isotropic, gaussian3), f32x4, f16x4, unorm8x4
   /// (anisotropic), f32x1 (min, max), f32x2, f16x2 (minmax, moments).
   Format format = Format::f32x4;
   Input input = Input::buffer;      // how level_0 is bound
@@ -46,10 +46,10 @@ struct MipBuildParams {
   bool count = false;               // adds `counters`: see below; not for unorm8x4
 };
 
-/// Resources of the plan: `level_0` (read), `level_1`, `level_2`, ... (written), tightly packed, rows from the top, slice after
-/// slice; anisotropic: `level_1_px`, `level_1_nx`, `level_1_py`, ... for each direction that is made. With count: `counters`,
-/// four u32 that are added to (texels of level_0 whose colour was dropped for having no opacity and no finite value; other
-/// texels with a NaN; other texels with an infinity; unused). No scratch.
+/// Resources of the plan: `level_0` (read), `level_1`, `level_2`, ... (written), tightly packed, rows from the top,
+/// slice after slice; anisotropic: `level_1_px`, `level_1_nx`, `level_1_py`, ... for each direction that is made. With
+/// count: `counters`, four u32 that are added to (texels of level_0 whose colour was dropped for having no opacity and
+/// no finite value; other texels with a NaN; other texels with an infinity; unused). No scratch.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const MipBuildParams& params);
 

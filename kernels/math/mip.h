@@ -1,5 +1,10 @@
 // One axis of a pyramid: which of the n fine texels make coarse texel i of m, and how they are averaged. Every mean is
 // written so that equal values give that value, bit for bit, and so that no weight rounds.
+#ifdef SCALAR_MEANS
+#define MEAN_TYPE float
+#else
+#define MEAN_TYPE pixel
+#endif
 #define MIP_COPY 0      // n = 1
 #define MIP_PAIR 1      // n = 2m: the mean of two
 #define MIP_TRIPLE 2    // n = 2m+1: the area of the coarse texel, ((m-i) s(2i) + m s(2i+1) + (i+1) s(2i+2)) / n
@@ -18,21 +23,21 @@ FN int mip_tap(int mode, int i, int k, int n) {
     return clamp(at, 0, n - 1);
 }
 
-FN pixel mip_pair(pixel a, pixel b) { return 0.5f * (a + b); }
-FN pixel mip_121(pixel a, pixel b, pixel c) { return mip_pair(b, mip_pair(a, c)); }
+FN MEAN_TYPE mip_pair(MEAN_TYPE a, MEAN_TYPE b) { return 0.5f * (a + b); }
+FN MEAN_TYPE mip_121(MEAN_TYPE a, MEAN_TYPE b, MEAN_TYPE c) { return mip_pair(b, mip_pair(a, c)); }
 
-FN pixel mip_triple(pixel a, pixel b, pixel c, int i, int m, int n) {
+FN MEAN_TYPE mip_triple(MEAN_TYPE a, MEAN_TYPE b, MEAN_TYPE c, int i, int m, int n) {
     return b + (float(m - i) / float(n) * (a - b) + float(i + 1) / float(n) * (c - b));
 }
 
 // The mean of the taps of coarse texel i.
-FN pixel mip_mean(int mode, pixel t[5], int i, int m, int n) {
+FN MEAN_TYPE mip_mean(int mode, MEAN_TYPE t[5], int i, int m, int n) {
     if (mode == MIP_COPY) return t[0];
     if (mode == MIP_PAIR) return mip_pair(t[0], t[1]);
     if (mode == MIP_TRIPLE) return mip_triple(t[0], t[1], t[2], i, m, n);
     if (mode == MIP_VERTEX) return mip_121(t[0], t[1], t[2]);
     if (mode == MIP_SMOOTH) {
-        pixel inner = mip_pair(t[1], t[2]);
+        MEAN_TYPE inner = mip_pair(t[1], t[2]);
         return inner + 0.25f * (mip_pair(t[0], t[3]) - inner);
     }
     return mip_triple(mip_121(t[0], t[1], t[2]), mip_121(t[1], t[2], t[3]), mip_121(t[2], t[3], t[4]), i, m, n);

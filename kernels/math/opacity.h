@@ -1,15 +1,21 @@
 // Premultiplied colour and opacity. Only + - * / and bits: the same result on every device.
 
-// A fully transparent voxel whose colour is NaN or infinite has none; a finite colour without opacity is emission.
-FN vec4 drop_hidden_colour(vec4 v) {
-    bool finite = abs(v.x) <= 3.4028235e38f && abs(v.y) <= 3.4028235e38f && abs(v.z) <= 3.4028235e38f;
-    return v.w == 0.0f ? (finite ? v : vec4(0.0f)) : v;
+FN bool colour_is_finite(vec4 v) {
+    vec4 zero = v - v;  // or NaN
+    return zero.x + zero.y + zero.z == 0.0f;
 }
+
+// A fully transparent voxel whose colour is NaN or infinite has none; a finite colour without opacity is emission.
+#if CHANNELS == 4
+FN pixel drop_hidden_colour(pixel v) { return v.w == 0.0f && !colour_is_finite(v) ? vec4(0.0f) : v; }
+#else
+FN pixel drop_hidden_colour(pixel v) { return v; }
+#endif
 
 // What lies behind opacity 1 does not matter, whatever it is.
 FN vec4 composite(vec4 front, vec4 back) { return front.w >= 1.0f ? front : front + (1.0f - front.w) * back; }
 
-// ln(1 - a) for 0 <= a < 1, relative error 1e-7 in float, 1e-10 in double: 1 - a = 2^k r with r in [sqrt(1/2), sqrt(2)),
+// ln(1 - a) for 0 <= a < 1, relative error 1e-7 in float, 1e-10 in double: 1 - a = 2^k r, r in [sqrt(1/2), sqrt(2)),
 // ln r = 2 atanh((r - 1) / (r + 1)).
 FN float log_transmittance(float a) {
     float z = a / (a - 2.0f);
@@ -20,7 +26,8 @@ FN float log_transmittance(float a) {
         z = (r - 1.0f) / (r + 1.0f);
     }
     float q = z * z;
-    float series = 1.0f + q * (0.333333333333f + q * (0.2f + q * (0.142857142857f + q * (0.111111111111f + q * 0.090909090909f))));
+    float series = 0.142857142857f + q * (0.111111111111f + q * 0.090909090909f);
+    series = 1.0f + q * (0.333333333333f + q * (0.2f + q * series));
     return float(k) * 0.693147180559945f + 2.0f * z * series;
 }
 

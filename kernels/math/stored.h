@@ -1,6 +1,6 @@
-// Rounding by the storage formats. Option STORAGE of a module: 0 f32, 1 f16, 2 unorm8, 3 unorm8 that comes from an image.
-// Means of unorm8 are taken in steps, 0..255: there sums and halves are exact, so that a half is seen as one and rounds to
-// even. In units of 1 it would not, and levels would drift upwards by 1/25 step each.
+// Rounding by the storage formats. Option STORAGE of a module: 0 f32, 1 f16, 2 unorm8, 3 unorm8 that the device's
+// texture unit decodes. Means of unorm8 are taken in steps, 0..255: there sums and halves are exact, so that a half is
+// seen as one and rounds to even. In units of 1 it would not, and levels would drift upwards by 1/25 step each.
 // `n` as math/exact.h wants it.
 
 FN float to_even(float v, int n) {
@@ -10,11 +10,11 @@ FN float to_even(float v, int n) {
     return in_double(n) ? v : low + ((rest > 0.5f || (rest == 0.5f && odd)) ? 1.0f : 0.0f);
 }
 FN float f16_nearest(float v, int n) { return in_double(n) ? v : f16_value(f16_bits(v)); }
-// Images hand out unorm8 to within a few units in the last place; there is a whole number of steps.
+// Texture units hand out unorm8 to within a few units in the last place; there is a whole number of steps.
 FN float snapped(float v, int n) { return in_double(n) ? v : floor(255.0f * v + 0.5f) / 255.0f; }
 
-// as_loaded: a value as a buffer would hand it out. to_steps: what means are taken of. rounded: of these, what storing and
-// loading again gives. from_steps: the value to store.
+// as_loaded: a value as a buffer would hand it out. to_steps: what means are taken of. rounded: of these, what storing
+// and loading again gives. from_steps: the value to store.
 #define as_loaded(v, n) (v)
 #if STORAGE == 0
 #define to_steps(v) (v)

@@ -1,17 +1,18 @@
 /* BUILD
    math: mip opacity exact stored
    module f32x1: CHANNELS=1 SRC_KIND=READ PIXEL=f32x1 BY_ROWS=0 STORAGE=0
-   module f32x2: CHANNELS=2 SRC_KIND=READ PIXEL=f32x2 BY_ROWS=0 STORAGE=0
    module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0 STORAGE=0
    module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0 STORAGE=1
    module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0 STORAGE=2
+   module texels_f32x1: CHANNELS=1 SRC_KIND=TEXELS PIXEL=f32x1 BY_ROWS=1 STORAGE=0
+   module texels_f32x4: SRC_KIND=TEXELS PIXEL=f32x4 BY_ROWS=1 STORAGE=0
+   module texels_f16x4: SRC_KIND=TEXELS PIXEL=f16x4 BY_ROWS=1 STORAGE=1
+   module texels_unorm8x4: SRC_KIND=TEXELS PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
    module image_f32x1: CHANNELS=1 SRC_KIND=IMAGE2D PIXEL=f32x1 BY_ROWS=1 STORAGE=0
-   module image_f32x2: CHANNELS=2 SRC_KIND=IMAGE2D PIXEL=f32x2 BY_ROWS=1 STORAGE=0
    module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1 STORAGE=0
    module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1 STORAGE=1
    module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
    module volume_f32x1: CHANNELS=1 SRC_KIND=IMAGE3D PIXEL=f32x1 BY_ROWS=0 STORAGE=0
-   module volume_f32x2: CHANNELS=2 SRC_KIND=IMAGE3D PIXEL=f32x2 BY_ROWS=0 STORAGE=0
    module volume_f32x4: SRC_KIND=IMAGE3D PIXEL=f32x4 BY_ROWS=0 STORAGE=0
    module volume_f16x4: SRC_KIND=IMAGE3D PIXEL=f16x4 BY_ROWS=0 STORAGE=1
    module volume_unorm8x4: SRC_KIND=IMAGE3D PIXEL=unorm8x4 BY_ROWS=0 STORAGE=3
@@ -28,6 +29,8 @@
     _(0, int, MODE_X, 1)  /* math/mip.h */ \
     _(1, int, MODE_Y, 1) \
     _(2, int, MODE_Z, 1)
+#define SHAPE(_) \
+    _(8, int, SPLIT, 1)  /* 1: a result that is not finite is taken again, cleaned; 0: each voxel is cleaned as it is read */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)

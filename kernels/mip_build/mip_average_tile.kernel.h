@@ -1,40 +1,39 @@
-// Three coarser levels of the isotropic pyramid in one dispatch: each workgroup keeps its part of a level for the next. The
-// same bits as mip_average, level by level.
+// Three coarser levels of the isotropic pyramid in one dispatch: each workgroup keeps its part of a level for the next.
+// The same bits as mip_average, level by level.
 
 FN ivec3 halved(ivec3 e) { return ivec3((e.x + 1) >> 1, (e.y + 1) >> 1, (e.z + 1) >> 1); }
 FN bool within(ivec3 p, ivec3 e) { return p.x < e.x && p.y < e.y && p.z < e.z; }
 
 FN pixel fine(CTX, int x, int y, int z) {
 #if BY_ROWS
-    pixel v = load_pixel(src, params.src_x, x, z * params.src_y + y);
+    pixel v = as_loaded(load_pixel(src, params.src_x, x, z * params.src_y + y), params.src_x);
 #else
-    pixel v = load_voxel(src, ivec3(params.src_x, params.src_y, params.src_z), ivec3(x, y, z));
+    const ivec3 extent = ivec3(params.src_x, params.src_y, params.src_z);
+    pixel v = as_loaded(load_voxel(src, extent, ivec3(x, y, z)), params.src_x);
 #endif
-    v = as_loaded(v, params.src_x);
-#if CHANNELS == 4
     if (params.clean != 0) v = drop_hidden_colour(v);
-#endif
     return to_steps(v);
 }
 
 FN pixel plane_of_source(CTX, ivec3 a, ivec3 b, int z) {
-    return mip_pair(mip_pair(fine(ctx, a.x, a.y, z), fine(ctx, b.x, a.y, z)), mip_pair(fine(ctx, a.x, b.y, z), fine(ctx, b.x, b.y, z)));
+    return mip_pair(mip_pair(fine(ctx, a.x, a.y, z), fine(ctx, b.x, a.y, z)),
+                    mip_pair(fine(ctx, a.x, b.y, z), fine(ctx, b.x, b.y, z)));
 }
 
+FN pixel from_tile(CTX, int x, int y, int z) { return load(tile, (z * TILE_Y + y) * TILE_X + x); }
 FN pixel plane_of_tile(CTX, ivec3 a, ivec3 b, int z) {
-    return mip_pair(mip_pair(load(tile, (z * TILE_Y + a.y) * TILE_X + a.x), load(tile, (z * TILE_Y + a.y) * TILE_X + b.x)),
-                    mip_pair(load(tile, (z * TILE_Y + b.y) * TILE_X + a.x), load(tile, (z * TILE_Y + b.y) * TILE_X + b.x)));
+    return mip_pair(mip_pair(from_tile(ctx, a.x, a.y, z), from_tile(ctx, b.x, a.y, z)),
+                    mip_pair(from_tile(ctx, a.x, b.y, z), from_tile(ctx, b.x, b.y, z)));
 }
 
+FN pixel from_small(CTX, int x, int y, int z) { return load(small, (z * (TILE_Y / 2) + y) * (TILE_X / 2) + x); }
 FN pixel plane_of_small(CTX, ivec3 a, ivec3 b, int z) {
-    const int w = TILE_X / 2;
-    const int h = TILE_Y / 2;
-    return mip_pair(mip_pair(load(small, (z * h + a.y) * w + a.x), load(small, (z * h + a.y) * w + b.x)),
-                    mip_pair(load(small, (z * h + b.y) * w + a.x), load(small, (z * h + b.y) * w + b.x)));
+    return mip_pair(mip_pair(from_small(ctx, a.x, a.y, z), from_small(ctx, b.x, a.y, z)),
+                    mip_pair(from_small(ctx, a.x, b.y, z), from_small(ctx, b.x, b.y, z)));
 }
 
-// The first and the second of the pair of each axis that texel p covers, in a level of this extent; along an axis of extent 1
-// they are one.
+// The first and the second of the pair of each axis that texel p covers, in a level of this extent; along an axis of
+// extent 1 they are one.
 FN ivec3 first_of(ivec3 p, ivec3 extent) { return min(2 * p, extent - 1); }
 FN ivec3 second_of(ivec3 p, ivec3 extent) { return min(2 * p + 1, extent - 1); }
 

@@ -1,25 +1,20 @@
 // A coarser level of a pyramid of bounds: each texel holds the minimum, the maximum or both of those it covers.
 // Source: Akenine-Moeller et al., Real-Time Rendering 4e, 2018, 11.6.5; McGuire et al. 2017, 4.2 (one step of 16).
 
-FN pixel fine(CTX, int x, int y) {
-#if ONE == 1
+FN RANGE fine(CTX, int x, int y) {
+#if ONE
     float v = load_pixel(src, params.src_x, x, y);
-    return vec2(v, v);
-#elif ONE == 2
-    float v = load_pixel(src, params.src_x, x, y).x;
     return vec2(v, v);
 #else
     return load_pixel(src, params.src_x, x, y);
 #endif
 }
 
-FN pixel wider(pixel a, pixel b) {
-#if CHANNELS == 1
-    return UPPER != 0 ? upper_of(a, b) : lower_of(a, b);
+#if CHANNELS == 1 && ONE == 0
+FN float wider(float a, float b) { return UPPER != 0 ? upper_of(a, b) : lower_of(a, b); }
 #else
-    return vec2(lower_of(a.x, b.x), upper_of(a.y, b.y));
+FN vec2 wider(vec2 a, vec2 b) { return vec2(lower_of(a.x, b.x), upper_of(a.y, b.y)); }
 #endif
-}
 
 // The last of n texels that texel i of m covers.
 FN int last_covered(CTX, int i, int m, int n) {
@@ -32,7 +27,7 @@ KERNEL(mip_bounds) {
     if (x >= params.dst_x || y >= params.dst_y) return;
     const int last_x = last_covered(ctx, x, params.dst_x, params.src_x);
     const int last_y = last_covered(ctx, y, params.dst_y, params.src_y);
-    pixel v = fine(ctx, x * RATIO, y * RATIO);
+    RANGE v = fine(ctx, x * RATIO, y * RATIO);
     if (RATIO == 2) {
         UNROLL for (int j = 0; j < TAPS_Y; ++j)
             UNROLL for (int k = 0; k < TAPS_X; ++k)

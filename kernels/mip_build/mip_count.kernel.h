@@ -1,5 +1,5 @@
-// Counts what level 0 holds that the promises speak of. counters: 0 texels whose colour is dropped (opacity 0, colour NaN or
-// infinite), 1 other texels with a NaN, 2 other texels with an infinity.
+// Counts what level 0 holds that the promises speak of. counters: 0 texels whose colour is dropped (opacity 0, colour
+// NaN or infinite), 1 other texels with a NaN, 2 other texels with an infinity.
 
 KERNEL(mip_count) {
     const int x = invocation_x();

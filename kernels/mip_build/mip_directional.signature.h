@@ -3,6 +3,9 @@
    module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0 STORAGE=0
    module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0 STORAGE=1
    module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0 STORAGE=2
+   module texels_f32x4: SRC_KIND=TEXELS PIXEL=f32x4 BY_ROWS=1 STORAGE=0
+   module texels_f16x4: SRC_KIND=TEXELS PIXEL=f16x4 BY_ROWS=1 STORAGE=1
+   module texels_unorm8x4: SRC_KIND=TEXELS PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
    module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1 STORAGE=0
    module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1 STORAGE=1
    module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
@@ -24,6 +27,8 @@
     _(0, int, MODE_ALONG, 1)  /* math/mip.h: copy, pair or triple; along the axis */ \
     _(1, int, MODE_U, 1)      /* the other two axes, in the order x, y, z */ \
     _(2, int, MODE_V, 1)
+#define SHAPE(_) \
+    _(8, int, SPLIT, 1)  /* 1: a result that is not finite is taken again, cleaned; 0: each voxel is cleaned as it is read */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)

@@ -3,6 +3,9 @@
    module f32x4: SRC_KIND=READ PIXEL=f32x4 BY_ROWS=0 STORAGE=0
    module f16x4: SRC_KIND=READ PIXEL=f16x4 BY_ROWS=0 STORAGE=1
    module unorm8x4: SRC_KIND=READ PIXEL=unorm8x4 BY_ROWS=0 STORAGE=2
+   module texels_f32x4: SRC_KIND=TEXELS PIXEL=f32x4 BY_ROWS=1 STORAGE=0
+   module texels_f16x4: SRC_KIND=TEXELS PIXEL=f16x4 BY_ROWS=1 STORAGE=1
+   module texels_unorm8x4: SRC_KIND=TEXELS PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
    module image_f32x4: SRC_KIND=IMAGE2D PIXEL=f32x4 BY_ROWS=1 STORAGE=0
    module image_f16x4: SRC_KIND=IMAGE2D PIXEL=f16x4 BY_ROWS=1 STORAGE=1
    module image_unorm8x4: SRC_KIND=IMAGE2D PIXEL=unorm8x4 BY_ROWS=1 STORAGE=3
@@ -18,6 +21,8 @@
     _(0, int, PAIR_X, 1)  /* 0: extent 1 */ \
     _(1, int, PAIR_Y, 1) \
     _(2, int, PAIR_Z, 1)
+#define SHAPE(_) \
+    _(8, int, SPLIT, 1)  /* 1: a result that is not finite is taken again, cleaned; 0: each voxel is cleaned as it is read */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst_px) \
