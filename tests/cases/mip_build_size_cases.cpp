@@ -62,7 +62,7 @@ void add_same_bits(std::vector<Case>& cases, const MipBuildParams& p) {
                      for (const auto& [name, values] : levels.value()) different += count_different(values, expected.value().at(name));
                      return different;
                    },
-                   false, not_double});
+                   p.width == 16 && p.format != Format::f32x4, not_double});
 }
 
 void add_single_pass(std::vector<Case>& cases, const MipBuildParams& p) {
@@ -97,7 +97,7 @@ void add_mip_size_cases(std::vector<Case>& cases) {
   for (const auto& e : {std::array{16, 16, 16}, {13, 7, 5}})
     for (const MipVariant v : {MipVariant::isotropic, MipVariant::anisotropic, MipVariant::gaussian3})
       for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4}) add_same_bits(cases, mip_params(v, format, e));
-  for (const Format format : {Format::f32x1, Format::f32x2}) add_same_bits(cases, mip_params(MipVariant::isotropic, format, {31, 17, 3}));
+  add_same_bits(cases, mip_params(MipVariant::isotropic, Format::f32x1, {31, 17, 3}));
   add_same_bits(cases, vertices);
   for (const Format format : {Format::f32x2, Format::f16x2})
     for (const MipVariant v : {MipVariant::minmax, MipVariant::moments}) add_same_bits(cases, mip_params(v, format, {37, 53, 1}));
