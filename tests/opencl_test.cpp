@@ -86,6 +86,12 @@ TEST_F(OpenCl, AdoptRefusesWhatIsNoDeviceOfTheContext) {
   clReleaseDevice(part);
 }
 
+TEST_F(OpenCl, EmptyDevicesAndPipelinesAreRefused) {
+  EXPECT_EQ(Pipeline::create(Device(), blur()).status().code(), Code::invalid_argument);
+  EXPECT_EQ(Pipeline().clone().status().code(), Code::invalid_argument);
+  EXPECT_EQ(Pipeline().enqueue(queue.get(), {}).code(), Code::invalid_argument);
+}
+
 TEST_F(OpenCl, DeviceTellsNameDriverAndProfile) {
   EXPECT_EQ(machine.device.name(), text(machine.id, CL_DEVICE_NAME));
   EXPECT_NE(machine.device.driver().find(text(machine.id, CL_DRIVER_VERSION)), std::string::npos);

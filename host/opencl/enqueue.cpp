@@ -121,6 +121,7 @@ Status enqueue_pass(const Pipeline::State& state, std::size_t index, bool keep, 
 }  // namespace
 
 Status Pipeline::enqueue(cl_command_queue queue, const std::vector<Binding>& bindings, const Enqueue& options) const {
+  if (!state) return Status(Code::invalid_argument, "pipeline is empty; expected one from opencl::Pipeline::create");
   const Shared& shared = *state->shared;
   const Result<QueueInfo> info = check_call(shared, queue, options);
   if (!info) return info.status();

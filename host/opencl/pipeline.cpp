@@ -147,6 +147,7 @@ Result<Pipeline> Pipeline::create(const Device& device, Plan plan) {
 }
 
 Result<Pipeline> Pipeline::clone() const {
+  if (!state) return Status(Code::invalid_argument, "pipeline is empty; expected one from opencl::Pipeline::create");
   Result<std::vector<OwnedKernel>> kernels = make_kernels(*state->shared);
   if (!kernels) return kernels.status();
   Pipeline pipeline;

@@ -15,12 +15,13 @@ namespace luxel::opencl {
 struct Adopt {
   cl_context context = nullptr;
   cl_device_id device = nullptr;
-  std::string cache_directory;  // program binaries; empty: none on disk
+  std::string cache_directory;  // program binaries; empty: none on disk. PoCL keeps its own instead (POCL_CACHE_DIR)
 };
 
 class Device {
  public:
-  /// Borrow a context and a device of it. Errors: invalid_argument for a null handle.
+  /// Borrow a context and a device of it. Errors: invalid_argument for a null handle or a device of another context;
+  /// unsupported for a device without OpenCL 1.2 or without a compiler.
   static Result<Device> adopt(const Adopt& info);
 
   const Profile& profile() const;
@@ -50,12 +51,16 @@ struct Enqueue {
 /// A plan compiled for a device. One thread at a time may enqueue a pipeline; `clone` gives another thread its own.
 class Pipeline {
  public:
-  /// Builds every program. Errors: unsupported, compile_failed (with the driver's log), out_of_memory.
+  /// Builds every program that the device does not have yet. Errors: unsupported, naming limit, value and need;
+  /// compile_failed with the first error of the driver's log; out_of_memory.
   static Result<Pipeline> create(const Device& device, Plan plan);
 
   const Plan& plan() const;
 
-  /// Enqueues the plan's passes, in order also on an out-of-order queue. Does not flush or wait.
+  /// Enqueues the plan's passes, in order also on an out-of-order queue. Does not flush or wait, and holds the bound
+  /// memory no longer than the commands do. Where the plan has tables, the host must be allowed to write to `scratch`.
+  /// Errors: invalid_argument, naming the binding, before anything is enqueued; out_of_memory. Where the driver refuses
+  /// a later pass, the message says that earlier ones are enqueued; no event is handed out then.
   Status enqueue(cl_command_queue queue, const std::vector<Binding>& bindings, const Enqueue& options = {}) const;
 
   /// The same programs with kernel objects of its own.
