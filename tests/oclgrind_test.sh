@@ -23,5 +23,5 @@ check() {
 }
 check probe_test '*'
 check gaussian_blur_test 'GaussianBlurSmall*'
-check mip_build_test 'MipBuildSmall*'
+check mip_build_test 'MipBuild/Formula*:MipBuild.ThreeLevels*'
 exit $failed
