@@ -10,7 +10,8 @@
     _(int, width)  /* pixels, and from row to row */ \
     _(int, height)
 #define SHAPE(_) \
-    _(8, int, LANES, 16)
+    _(8, int, LANES, 16) \
+    _(9, int, BLOCK, 1)    /* pieces of LANES an invocation moves */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)

@@ -22,8 +22,8 @@ void add_report(CLI::App& app, int& exit_status) {
                                                        "may be given again; default: all")->type_name("NAME")->allow_extra_args(false);
   command->add_option("--kernel", a->settings.kernels, "gaussian_blur or mip_build; may be given again; default: all")
       ->type_name("NAME")->allow_extra_args(false);
-  command->add_option("--image", a->settings.images, "EXR, HDR, PNG or NPY file to measure on; may be given again; default: the "
-                                                     "photographs and skies of the data folder (LUXEL_DATA)")
+  command->add_option("--image", a->settings.images, "EXR, HDR, PNG or NPY file to measure on (its middle 512x512, with --quick 256x256); may be "
+                                                     "given again; default: the photographs and skies of the data folder (LUXEL_DATA)")
       ->type_name("FILE")->allow_extra_args(false);
   command->add_option("--only", a->settings.only, "measure only what has this text in its label, as the progress shows it; may be given again")
       ->type_name("TEXT")->allow_extra_args(false);

@@ -11,8 +11,18 @@ std::vector<Job> limit_jobs(Session& session);
 /// session has them already. `size` is how rows of that size are written.
 void add_copies(Session& session, std::vector<Job>& jobs, const std::string& size, int width, int rows);
 
-/// Plan of a copy; `texels`: read through a texel buffer. Resources src and dst. Errors: invalid_argument.
-Result<Plan> copy_plan(int width, int height, int bytes, bool texels, const Profile& profile);
+/// A way to copy: through a texel buffer or not, and how many pieces an invocation moves.
+struct CopyForm {
+  const char* name;
+  bool texels;
+  int block;
+};
+
+/// The ways that can differ on a device: the best of them is its limit.
+std::vector<CopyForm> copy_forms(Session& session);
+
+/// Plan of a copy. Resources src and dst. Errors: invalid_argument.
+Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, const Profile& profile);
 
 /// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
 Json machine_limits(bool quick);

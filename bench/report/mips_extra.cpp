@@ -144,17 +144,16 @@ Status beside_copy(Session& session, Json goal) {
   const int width = 1024, height = static_cast<int>(bytes / 2 / 16 / width);
   const double scale = bytes / (2.0 * 16 * width * height);
   Json best;
-  for (const bool texels : {false, true}) {
-    Result<cases::Run> copy = cases::Run::make(session.context(), copy_plan(width, height, 16, texels, session.context().profile()));
+  for (const CopyForm& form : copy_forms(session)) {
+    Result<cases::Run> copy = cases::Run::make(session.context(), copy_plan(width, height, 16, form, session.context().profile()));
     if (!copy) return copy.status();
     const auto run = std::make_shared<cases::Run>(std::move(copy).value());
     if (Status status = run->write("src", std::vector<double>(static_cast<std::size_t>(width) * height * 4, 0.5)); !status) return status;
     const auto pair = session.interleave(timed(own.value()), timed(run), "peer: copy");
     if (!pair) return pair.status();
-    const Json row = peer_row(session, fmt::format("copy of as many bytes by a compute shader ({})", texels ? "texel buffer" : "buffer"), "-", s,
+    const Json row = peer_row(session, fmt::format("best copy of as many bytes by a compute shader ({})", form.name), "-", s,
                               pair.value(), nullptr, nullptr, scale, goal);
     if (best.is_null() || row["time_ms"]["median"] < best["time_ms"]["median"]) best = row;
-    if (session.context().info().api != Api::vulkan) break;
   }
   session.row("peers", best);
   return {};

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/io/image.h"
 #include "bench/report/child.h"
 #include "bench/report/limits.h"
 #include "bench/report/listing.h"
@@ -115,7 +116,7 @@ int run_report(const Settings& settings) {
     if (std::find(measured_kernels().begin(), measured_kernels().end(), kernel) == measured_kernels().end())
       return misuse(fmt::format("--kernel is {}; expected one of: {}", kernel, fmt::join(measured_kernels(), ", ")));
   for (const std::string& image : settings.images)
-    if (!fs::is_regular_file(image)) return misuse(fmt::format("--image {} is not a file; expected an EXR, HDR, PNG or NPY file", image));
+    if (const auto read = io::read_image(image); !read) return misuse(fmt::format("--image: {}", read.status().message()));
   std::error_code error;
   fs::create_directories(settings.out + "/pictures", error);
   const std::string listing_log = settings.out + "/devices.log";

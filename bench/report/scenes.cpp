@@ -11,7 +11,6 @@
 #include "tests/cases/storage.h"
 
 namespace luxel::report {
-namespace {
 
 Scene middle_of(const Scene& scene, int side) {
   if (scene.width <= side && scene.height <= side) return scene;
@@ -23,8 +22,6 @@ Scene middle_of(const Scene& scene, int side) {
   }
   return part;
 }
-
-}  // namespace
 
 std::string size_text(int width, int height) { return fmt::format("{}x{}", width, height); }
 
@@ -52,7 +49,7 @@ std::vector<Scene> image_files(const Settings& settings, std::vector<std::string
     const io::Image& i = image.value();
     Scene scene{std::filesystem::path(file).filename().string(), i.width, i.height, i.channels,
                 std::vector<double>(i.pixels.begin(), i.pixels.end()), file.ends_with(".png") || file.ends_with(".PNG")};
-    scenes.push_back(settings.quick ? middle_of(scene, 384) : std::move(scene));
+    scenes.push_back(std::move(scene));
   }
   return scenes;
 }

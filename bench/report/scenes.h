@@ -19,13 +19,16 @@ struct Scene {
 /// Generated: "landscape" of a size.
 Scene landscape(int width, int height);
 
-/// Files: those of the settings, else photographs and skies under LUXEL_DATA. Quick reports take the middle 384x384.
+/// Files: those of the settings, else photographs and skies under LUXEL_DATA. Whole, however large.
 /// `problems` receives a line for each file that is missing or unreadable.
 std::vector<Scene> image_files(const Settings& settings, std::vector<std::string>& problems);
 
 /// The scene's pixels in a format's channels, as the format holds them: one channel is luminance (Rec. 709), a missing
 /// alpha is 1.
 std::vector<double> in_format(const Scene& scene, Format format);
+
+/// The middle of a scene, at most `side` wide and high.
+Scene middle_of(const Scene& scene, int side);
 
 /// "1920x1080"
 std::string size_text(int width, int height);

@@ -20,7 +20,7 @@ Rgba room(double x, double y, double z, double cell) {
   if (x >= 0.25 + cell && x < 0.25 + 2 * cell) return {0.05, 0.6, 0.05, 1};
   if (in_ball(x, y, z, 0.6, 0.25, 0.4, 0.2)) return {0.1, 0.2, 0.7, 1};
   if (in_ball(x, y, z, 0.7, 0.5, 0.75, 0.18)) return {0.06, 0.075, 0.08, 0.1};
-  if (std::fabs(x - 0.6) < 0.1 && std::fabs(z - 0.5) < 0.1 && y > 0.9 && y < 0.95) return {0.9, 0.8, 0.6, 0};
+  if (std::fabs(x - 0.6) < 0.1 && std::fabs(z - 0.5) < 0.1 && y > 0.9 && y < 0.95) return {0.03, 0.025, 0.02, 0};  // dim: it adds up along a ray
   return {0, 0, 0, 0};
 }
 

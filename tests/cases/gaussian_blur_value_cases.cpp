@@ -93,7 +93,7 @@ void add_constants(std::vector<Case>& cases) {
     for (const int radius : {12, 36, 100})
       cases.push_back({"", fmt::format("constant 1, R {}, {}", radius, name(format)),
                        "the weights sum to 1 in the storage format: a constant 1 stays 1 (values that differ)", 0,
-                       changed(blur_params(23, 19, radius / 3.0, radius, format), 1.0), false, not_double});
+                       changed(blur_params(23, 19, radius / 3.0, radius, format), 1.0), radius != 36 && format != Format::f32x4, not_double});
   for (const Border border : {Border::mirror, Border::wrap})
     cases.push_back({"", fmt::format("constant 1, {}", name(border)), "a constant 1 stays 1 at this border too", 0,
                      changed(blur_params(23, 19, 4, 12, Format::f32x4, border), 1.0), false, not_double});
@@ -132,7 +132,8 @@ void add_strides(std::vector<Case>& cases) {
                bad += (x < width ? same(v, expected.value()[y * width + x]) : std::isnan(v)) ? 0 : 1;
              }
              return bad;
-           }});
+           },
+           variant == GaussianVariant::direct && border != Border::clamp});
 }
 
 }  // namespace

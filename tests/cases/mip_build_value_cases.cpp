@@ -57,7 +57,7 @@ void add_opaque(std::vector<Case>& cases, const MipBuildParams& p) {
                      if (!levels) return levels.status();
                      return count(levels.value(), p, [](int, int channel, double v) { return channel == 3 && v != 1; });
                    },
-                   false, not_double});
+                   p.width == 16 && p.format != Format::f32x4, not_double});
 }
 
 void add_saturation(std::vector<Case>& cases) {
