@@ -65,7 +65,8 @@ void put(Bytes& to, const T& value) {
 void expect_same(const std::vector<float>& a, const std::vector<float>& b) {
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
-    ASSERT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) << "at " << i << ": " << a[i] << " and " << b[i];
+    ASSERT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i])))
+        << "at " << i << ": " << a[i] << " and " << b[i];
 }
 
 // A failure is one line: file, what is wrong, remedy.
@@ -98,9 +99,11 @@ Bytes npy(const std::string& header, std::size_t data_bytes, int major = 1) {
 
 TEST(Npy, KeepsEveryDtypeShapeAndBit) {
   for (const Dtype dtype : {Dtype::f4, Dtype::f8, Dtype::u1, Dtype::u2, Dtype::u4, Dtype::i4})
-    for (const std::vector<std::size_t>& shape : std::vector<std::vector<std::size_t>>{{}, {5}, {2, 3}, {2, 3, 4}, {1, 2, 3, 4}, {0, 3}}) {
+    for (const std::vector<std::size_t>& shape :
+         std::vector<std::vector<std::size_t>>{{}, {5}, {2, 3}, {2, 3, 4}, {1, 2, 3, 4}, {0, 3}}) {
       Array array{shape, dtype, {}};
-      for (std::size_t i = 0; i < array.elements() * bytes_of(dtype); ++i) array.data.push_back(static_cast<std::uint8_t>(i * 37));
+      for (std::size_t i = 0; i < array.elements() * bytes_of(dtype); ++i)
+        array.data.push_back(static_cast<std::uint8_t>(i * 37));
       const std::string file = scratch_file("round.npy");
       ASSERT_TRUE(write_npy(file, array).ok());
       const Result<Array> back = read_npy(file);
@@ -179,7 +182,17 @@ TEST(Npy, RefusesMalformedInput) {
       {npy(head("'<f4'", "False", "(0, 99999999999999999999999)"), 0), "impossible shape"},
       {npy(head("'<f8'", "False", "(2305843009213693952,)"), 0), "impossible shape"},
       {npy(head("'<f4'", "False", "(1000000000000,)"), 24), "needs 4000000000000"},
-      {npy(head("'<u1'", "False", ("(" + [] { std::string s; for (int i = 0; i < 40; ++i) s += "1, "; return s; }() + ")").c_str()), 1), "malformed NPY header"},
+      {npy(head("'<u1'", "False",
+                ("(" +
+                 [] {
+                   std::string s;
+                   for (int i = 0; i < 40; ++i) s += "1, ";
+                   return s;
+                 }() +
+                 ")")
+                    .c_str()),
+           1),
+       "malformed NPY header"},
   };
   for (const auto& [bytes, part] : table) expect_clear(decode_npy(bytes, "x.npy").status(), "x.npy", part);
 }
@@ -189,7 +202,8 @@ TEST(Npy, WritingRefusesShapesThatDoNotFitTheData) {
   fs::remove(file);
   EXPECT_EQ(write_npy(file, Array{{2, 2}, Dtype::f4, Bytes(15)}).code(), Code::invalid_argument);
   EXPECT_EQ(write_npy(file, Array{{std::size_t{1} << 62, 4}, Dtype::f4, {}}).code(), Code::invalid_argument);
-  EXPECT_EQ(write_npy(file, Array{std::vector<std::size_t>(33, 1), Dtype::u1, Bytes(1)}).code(), Code::invalid_argument);
+  EXPECT_EQ(write_npy(file, Array{std::vector<std::size_t>(33, 1), Dtype::u1, Bytes(1)}).code(),
+            Code::invalid_argument);
   EXPECT_FALSE(fs::exists(file));
 }
 
@@ -202,7 +216,9 @@ struct ExrChannel {
 };
 
 // Value of a channel, exact as half, float and uint.
-float exr_value(std::size_t channel, int x, int y) { return static_cast<float>(channel * 100 + std::size_t(y) * 10 + std::size_t(x)); }
+float exr_value(std::size_t channel, int x, int y) {
+  return static_cast<float>(channel * 100 + std::size_t(y) * 10 + std::size_t(x));
+}
 
 void attribute(Bytes& to, std::string_view name, std::string_view type, const Bytes& data) {
   to.insert(to.end(), name.begin(), name.end());
@@ -304,7 +320,8 @@ TEST(Exr, TakesTheSensibleChannels) {
       {{{{"U"}, {"V"}}}, {0, 1}},
       {{{{"id", 0}}}, {0}},
       {{{{"B"}, {"G"}, {"R"}, {"a.B"}, {"a.G"}, {"a.R"}}}, {2, 1, 0}},
-      {{{{"View.Combined.A"}, {"View.Combined.B"}, {"View.Combined.G"}, {"View.Combined.R"}, {"View.Depth.Z"}}}, {3, 2, 1, 0}},
+      {{{{"View.Combined.A"}, {"View.Combined.B"}, {"View.Combined.G"}, {"View.Combined.R"}, {"View.Depth.Z"}}},
+       {3, 2, 1, 0}},
       {{{{"a.Z"}, {"b.B"}, {"b.G"}, {"b.R"}}}, {3, 2, 1}},
       {{{{"a.Z"}, {"b.Y"}}}, {0}},
       {{{{"B"}, {"G"}, {"R"}}, {{"Z"}}}, {2, 1, 0}},
@@ -344,14 +361,17 @@ TEST(Exr, KeepsEveryFloat) {
 TEST(Exr, RefusesMalformedInput) {
   const Bytes good = exr({{{"B"}, {"G"}, {"R"}}}, 5, 3);
   const auto find = [&](std::string_view name) {
-    return static_cast<std::size_t>(std::search(good.begin(), good.end(), name.begin(), name.end()) - good.begin()) + name.size();
+    return static_cast<std::size_t>(std::search(good.begin(), good.end(), name.begin(), name.end()) - good.begin()) +
+           name.size();
   };
   const auto with = [&](std::size_t at, std::int32_t value) {
     Bytes b = good;
     std::memcpy(&b[at], &value, 4);
     return b;
   };
-  const auto cut = [&](std::size_t length) { return Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length)); };
+  const auto cut = [&](std::size_t length) {
+    return Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length));
+  };
   const std::size_t window = find("dataWindow") + 1 + 6 + 4;  // past the type and the size
   const std::size_t chunk = good.size() - 3 * (8 + 60);  // the first of three; the table of offsets ends there
   const auto zip_cut = [](std::size_t bytes) {
@@ -417,7 +437,9 @@ TEST(Hdr, RoundTripIsWithinOneStepOfTheMantissa) {
       Image image{width, 5, channels, {}};
       for (int i = 0; i < width * 5; ++i)
         for (int c = 0; c < channels; ++c)
-          image.pixels.push_back(c == 3 ? 1.0f : std::exp2(static_cast<float>((i * 7 + c) % 40 - 20)) * (1.0f + 0.01f * static_cast<float>(i % 50)));
+          image.pixels.push_back(c == 3 ? 1.0f
+                                        : std::exp2(static_cast<float>((i * 7 + c) % 40 - 20)) *
+                                              (1.0f + 0.01f * static_cast<float>(i % 50)));
       const std::string file = scratch_file("round.hdr");
       WriteReport report;
       ASSERT_TRUE(write_image(file, image, &report).ok());
@@ -492,12 +514,13 @@ TEST(Hdr, RefusesMalformedInput) {
       {text("-Y 1 +X 99999999999999999999\n1234"), "has no resolution line"},
       {text("-Y 1 +X 2\n1234123"), "truncated or damaged in row 0 of 1"},
       {text("-Y 2 +X 1\n1234"), "truncated or damaged in row 1 of 2"},
-      {text("-Y 1 +X 8\n") , "truncated or damaged in row 0"},
+      {text("-Y 1 +X 8\n"), "truncated or damaged in row 0"},
       {text(std::string("-Y 1 +X 8\n\2\2\0\x8\x88", 15)), "truncated or damaged"},
-      {text(std::string("-Y 1 +X 8\n\2\2\0\x9\x88\1\x88\1\x88\1\x88\1", 22)), "truncated or damaged"},      // another width
-      {text(std::string("-Y 1 +X 8\n\2\2\0\x8\0\0\0\0\0\0\0\0\0\0\0\0", 26)), "truncated or damaged"},       // empty pieces
-      {text(std::string("-Y 1 +X 8\n\2\2\0\x8\x89\1\x88\1\x88\1\x88\1", 22)), "truncated or damaged"},      // leaves the line
-      {text("-Y 1 +X 4\n\1\1\1\3aaaa"), "truncated or damaged"},                                            // repeats nothing
+      {text(std::string("-Y 1 +X 8\n\2\2\0\x9\x88\1\x88\1\x88\1\x88\1", 22)), "truncated or damaged"},  // another width
+      {text(std::string("-Y 1 +X 8\n\2\2\0\x8\0\0\0\0\0\0\0\0\0\0\0\0", 26)), "truncated or damaged"},  // empty pieces
+      {text(std::string("-Y 1 +X 8\n\2\2\0\x8\x89\1\x88\1\x88\1\x88\1", 22)),
+       "truncated or damaged"},                                   // leaves the line
+      {text("-Y 1 +X 4\n\1\1\1\3aaaa"), "truncated or damaged"},  // repeats nothing
       {text("-Y 1 +X 4\naaaa\1\1\1\4"), "truncated or damaged"},
   };
   for (const auto& [bytes, part] : table) expect_clear(decode_hdr(bytes, "x.hdr").status(), "x.hdr", part);
@@ -516,7 +539,8 @@ TEST(Png, RoundsHalfToEvenAndClamps) {
   EXPECT_EQ(report.out_of_range, 4u);
   const auto back = read_image(file);
   ASSERT_TRUE(back.ok()) << back.status().message();
-  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(back.value().pixels[i], static_cast<float>(wanted[i]) / 255.0f) << values[i];
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    EXPECT_EQ(back.value().pixels[i], static_cast<float>(wanted[i]) / 255.0f) << values[i];
 }
 
 TEST(Png, KeepsEveryByteInEveryChannelCount) {
@@ -542,7 +566,9 @@ std::uint32_t crc32(const std::uint8_t* data, std::size_t count) {
 }
 
 Bytes png_chunk(std::string_view type, const Bytes& data) {
-  const auto big = [](Bytes& b, std::uint32_t v) { for (int s = 24; s >= 0; s -= 8) b.push_back(static_cast<std::uint8_t>(v >> s)); };
+  const auto big = [](Bytes& b, std::uint32_t v) {
+    for (int s = 24; s >= 0; s -= 8) b.push_back(static_cast<std::uint8_t>(v >> s));
+  };
   Bytes b;
   big(b, static_cast<std::uint32_t>(data.size()));
   b.insert(b.end(), type.begin(), type.end());
@@ -557,7 +583,8 @@ Bytes png(std::initializer_list<Bytes> chunks) {
   return b;
 }
 
-Bytes png_header(std::uint8_t width_high, std::uint8_t width, std::uint8_t height_high, std::uint8_t height, std::uint8_t depth, std::uint8_t kind) {
+Bytes png_header(std::uint8_t width_high, std::uint8_t width, std::uint8_t height_high, std::uint8_t height,
+                 std::uint8_t depth, std::uint8_t kind) {
   return png_chunk("IHDR", {0, 0, width_high, width, 0, 0, height_high, height, depth, kind, 0, 0, 0});
 }
 
@@ -570,13 +597,17 @@ Bytes stored(const Bytes& raw) {
   b.insert(b.end(), raw.begin(), raw.end());
   std::uint32_t s1 = 1, s2 = 0;
   for (const std::uint8_t r : raw) s2 = (s2 + (s1 = (s1 + r) % 65521)) % 65521;
-  for (const std::uint32_t s : {s2, s1}) { b.push_back(static_cast<std::uint8_t>(s >> 8)); b.push_back(static_cast<std::uint8_t>(s)); }
+  for (const std::uint32_t s : {s2, s1}) {
+    b.push_back(static_cast<std::uint8_t>(s >> 8));
+    b.push_back(static_cast<std::uint8_t>(s));
+  }
   return b;
 }
 
 TEST(Png, ReadsSixteenBitsPalettesAndBits) {
   const Bytes end = png_chunk("IEND", {});
-  const auto wide = decode_png(png({png_header(0, 2, 0, 1, 16, 0), png_chunk("IDAT", stored({0, 0x12, 0x34, 0xff, 0xff})), end}), "x.png");
+  const auto wide = decode_png(
+      png({png_header(0, 2, 0, 1, 16, 0), png_chunk("IDAT", stored({0, 0x12, 0x34, 0xff, 0xff})), end}), "x.png");
   ASSERT_TRUE(wide.ok()) << wide.status().message();
   EXPECT_EQ(wide.value().pixels, (std::vector<float>{static_cast<float>(0x1234) / 65535.0f, 1.0f}));
   const auto palette = decode_png(png({png_header(0, 2, 0, 1, 8, 3), png_chunk("PLTE", {255, 0, 51, 0, 255, 0}),
@@ -634,9 +665,14 @@ TEST(Image, NpyIsHeightWidthAndChannels) {
     ASSERT_EQ(back.value().channels, channels);
     expect_same(back.value().pixels, image.pixels);
   }
-  for (const auto& [shape, part] : std::vector<std::pair<std::vector<std::size_t>, std::string>>{
-           {{6}, "has 1 dimensions"}, {{}, "has 0 dimensions"}, {{1, 1, 1, 1}, "has 4 dimensions"}, {{0, 3}, "is 3x0 pixels"},
-           {{1, 65536}, "is 65536x1 pixels"}, {{1, 1, 5}, "has 5 channels"}, {{1, 1, 0}, "has 0 channels"}}) {
+  for (const auto& [shape, part] :
+       std::vector<std::pair<std::vector<std::size_t>, std::string>>{{{6}, "has 1 dimensions"},
+                                                                     {{}, "has 0 dimensions"},
+                                                                     {{1, 1, 1, 1}, "has 4 dimensions"},
+                                                                     {{0, 3}, "is 3x0 pixels"},
+                                                                     {{1, 65536}, "is 65536x1 pixels"},
+                                                                     {{1, 1, 5}, "has 5 channels"},
+                                                                     {{1, 1, 0}, "has 0 channels"}}) {
     Array array{shape, Dtype::u1, {}};
     array.data.resize(array.elements());
     ASSERT_TRUE(write_npy(file, array).ok());
@@ -683,20 +719,23 @@ TEST(Pixels, PackAndUnpack) {
   EXPECT_EQ(format_for(Format::f16x4, 1), Format::f16x4);
   const std::vector<float> rgb{0.25f, 0.5f, 1.0f, 65504.0f, -3.0f, 0.0f};
   const Bytes padded = pack(rgb, 3, Format::f32x4, false, 9.0f);
-  EXPECT_EQ(unpack(padded, Format::f32x4, false, 4), (std::vector<float>{0.25f, 0.5f, 1.0f, 9.0f, 65504.0f, -3.0f, 0.0f, 9.0f}));
+  EXPECT_EQ(unpack(padded, Format::f32x4, false, 4),
+            (std::vector<float>{0.25f, 0.5f, 1.0f, 9.0f, 65504.0f, -3.0f, 0.0f, 9.0f}));
   for (const Format format : {Format::f32x4, Format::f16x4})
     for (const bool real64 : {false, true}) {
       const Bytes data = pack(rgb, 3, format, real64);
       EXPECT_EQ(data.size(), 2 * (real64 ? 32 : bytes_per_pixel(format)));
       EXPECT_EQ(unpack(data, format, real64, 3), rgb);
     }
-  const std::vector<float> hard{65519.0f, 1e30f, -inf, 0x1p-25f, 0x1.000002p-25f, 1.0f + 0x1p-11f, 1.0f + 3 * 0x1p-11f, nan};
+  const std::vector<float> hard{65519.0f, 1e30f, -inf, 0x1p-25f, 0x1.000002p-25f, 1.0f + 0x1p-11f, 1.0f + 3 * 0x1p-11f,
+                                nan};
   const std::vector<float> half = unpack(pack(hard, 4, Format::f16x4, false), Format::f16x4, false, 4);
   EXPECT_EQ(std::vector<float>(half.begin(), half.end() - 1),
             (std::vector<float>{65504.0f, 65504.0f, -65504.0f, 0.0f, 0x1p-24f, 1.0f, 1.0f + 0x1p-9f}));
   EXPECT_TRUE(std::isnan(half.back()));
   EXPECT_EQ(pack(std::vector<float>{0.3f, -1.0f, 2.0f, nan}, 4, Format::unorm8x4, false), (Bytes{76, 0, 255, 0}));
-  EXPECT_EQ(unpack(pack(std::vector<float>{3.0f}, 1, Format::u32, false), Format::u32, false, 1), std::vector<float>{3.0f});
+  EXPECT_EQ(unpack(pack(std::vector<float>{3.0f}, 1, Format::u32, false), Format::u32, false, 1),
+            std::vector<float>{3.0f});
 }
 
 struct Codec {
@@ -718,7 +757,8 @@ Status checked(const Result<Image>& read) {
 // Makes every chunk's checksum right again, so that what lies behind the check is reached too.
 void repair_checksums(Bytes& b) {
   for (std::size_t at = 8; at + 12 <= b.size();) {
-    const std::size_t n = std::size_t{b[at]} << 24 | std::size_t{b[at + 1]} << 16 | std::size_t{b[at + 2]} << 8 | b[at + 3];
+    const std::size_t n =
+        std::size_t{b[at]} << 24 | std::size_t{b[at + 1]} << 16 | std::size_t{b[at + 2]} << 8 | b[at + 3];
     if (n > b.size() - at - 12) return;
     const std::uint32_t crc = crc32(&b[at + 4], n + 4);
     for (std::size_t i = 0; i < 4; ++i) b[at + 8 + n + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
@@ -806,7 +846,10 @@ TEST(ImageFull, SurvivesManyMutations) { mutate(60000); }
 
 // Where the crop lies in the image: the one place whose first row matches.
 bool find_crop(const Image& image, const std::function<float(int, int, int)>& crop, int size, int& x0, int& y0) {
-  const auto at = [&](int x, int y, int c) { return image.pixels[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) + std::size_t(c)]; };
+  const auto at = [&](int x, int y, int c) {
+    return image.pixels[(std::size_t(y) * std::size_t(image.width) + std::size_t(x)) * std::size_t(image.channels) +
+                        std::size_t(c)];
+  };
   for (y0 = 0; y0 + size <= image.height; ++y0)
     for (x0 = 0; x0 + size <= image.width; ++x0) {
       bool same = true;
@@ -819,7 +862,8 @@ bool find_crop(const Image& image, const std::function<float(int, int, int)>& cr
 }
 
 TEST(RealFiles, ExrHoldsTheCropThatOpenCvRead) {
-  const std::string exr_file = data_folder() + "/photos/CandleGlass.exr", npy_file = data_folder() + "/opencv_ref/in_candle.npy";
+  const std::string exr_file = data_folder() + "/photos/CandleGlass.exr",
+                    npy_file = data_folder() + "/opencv_ref/in_candle.npy";
   NEED(exr_file);
   NEED(npy_file);
   const auto photo = read_image(exr_file);
@@ -836,7 +880,8 @@ TEST(RealFiles, ExrHoldsTheCropThatOpenCvRead) {
 }
 
 TEST(RealFiles, PngHoldsTheCropThatOpenCvRead) {
-  const std::string png_file = data_folder() + "/photos/camera.png", npy_file = data_folder() + "/opencv_ref/in_camera.npy";
+  const std::string png_file = data_folder() + "/photos/camera.png",
+                    npy_file = data_folder() + "/opencv_ref/in_camera.npy";
   NEED(png_file);
   NEED(npy_file);
   const auto photo = read_image(png_file);
@@ -847,7 +892,9 @@ TEST(RealFiles, PngHoldsTheCropThatOpenCvRead) {
   EXPECT_EQ(photo.value().channels, 1);
   ASSERT_EQ(crop.value().dtype, Dtype::u1);
   int x0 = 0, y0 = 0;
-  const auto grey = [&](int x, int y, int) { return static_cast<float>(crop.value().data[std::size_t(y * 256 + x)]) / 255.0f; };
+  const auto grey = [&](int x, int y, int) {
+    return static_cast<float>(crop.value().data[std::size_t(y * 256 + x)]) / 255.0f;
+  };
   EXPECT_TRUE(find_crop(photo.value(), grey, 256, x0, y0));
 }
 

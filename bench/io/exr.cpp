@@ -85,9 +85,11 @@ class Walk {
 
   Status check() {
     std::uint32_t magic = 0, version = 0;
-    if (!number(magic) || magic != 20000630) return failure(file_, "is not an OpenEXR file", "check the name and the format");
+    if (!number(magic) || magic != 20000630)
+      return failure(file_, "is not an OpenEXR file", "check the name and the format");
     if (!number(version)) return truncated();
-    if ((version & 255) != 2) return failure(file_, fmt::format("has OpenEXR version {}; expected 2", version & 255), damaged);
+    if ((version & 255) != 2)
+      return failure(file_, fmt::format("has OpenEXR version {}; expected 2", version & 255), damaged);
     const bool multipart = (version & 0x1000) != 0;
     if ((version & 0x800) != 0 && !multipart) return failure(file_, "holds only deep data", "flatten it");
     const bool tiled = (version & 0x200) != 0;
@@ -127,9 +129,9 @@ class Walk {
   static bool has_size_of(std::string_view type, std::span<const std::uint8_t> data) {
     static const std::map<std::string_view, std::size_t> sizes{
         {"box2i", 16}, {"box2f", 16}, {"chromaticities", 32}, {"compression", 1}, {"deepImageState", 1}, {"double", 8},
-        {"envmap", 1}, {"float", 4}, {"int", 4}, {"keycode", 28}, {"lineOrder", 1}, {"m33f", 36}, {"m33d", 72}, {"m44f", 64},
-        {"m44d", 128}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8}, {"v2i", 8}, {"v2f", 8}, {"v2d", 16}, {"v3i", 12},
-        {"v3f", 12}, {"v3d", 24}};
+        {"envmap", 1}, {"float", 4}, {"int", 4}, {"keycode", 28}, {"lineOrder", 1}, {"m33f", 36},
+        {"m33d", 72}, {"m44f", 64}, {"m44d", 128}, {"rational", 8}, {"tiledesc", 9}, {"timecode", 8},
+        {"v2i", 8}, {"v2f", 8}, {"v2d", 16}, {"v3i", 12}, {"v3f", 12}, {"v3d", 24}};
     if (type == "preview") {
       std::array<std::uint32_t, 2> extent{};
       return take(data, extent) && double(extent[0]) * double(extent[1]) * 4 == double(data.size());
@@ -155,7 +157,9 @@ class Walk {
       std::span<const std::uint8_t> data = rest_.first(std::size_t(size));
       rest_ = rest_.subspan(std::size_t(size));
       if (!has_size_of(type, data))
-        return failure(file_, fmt::format("has an OpenEXR attribute of {} bytes, which is not what its type needs", size), damaged);
+        return failure(file_,
+                       fmt::format("has an OpenEXR attribute of {} bytes, which is not what its type needs", size),
+                       damaged);
       if (name == "compression" && !take(data, compression)) return truncated();
       if (name == "dataWindow" && !take(data, window)) return truncated();
       if (name == "tiles") {
@@ -178,12 +182,14 @@ class Walk {
     end = first;
     if (first) return {};
     if (compression >= compressions.size())
-      return failure(file_, fmt::format("has OpenEXR compression {}; expected 0..9", compression), "export it with ZIP");
+      return failure(file_, fmt::format("has OpenEXR compression {}; expected 0..9", compression),
+                     "export it with ZIP");
     compression_ = compressions[compression];
     const double width = double(window[2]) - window[0] + 1, height = double(window[3]) - window[1] + 1;
     if (!(width >= 1 && height >= 1 && width <= largest_side && height <= largest_side))
-      return failure(file_, fmt::format("has a data window of {}x{} pixels; expected 1..{} each way", width, height, largest_side),
-                     "crop the image");
+      return failure(
+          file_, fmt::format("has a data window of {}x{} pixels; expected 1..{} each way", width, height, largest_side),
+          "crop the image");
     if (std::max(width * height, tile) * pixel_bytes > small + compression_.expansion * double(all_.size()))
       return failure(file_, fmt::format("holds too few bytes for {}x{} pixels", width, height), damaged);
     height_ = static_cast<int>(height);
@@ -201,7 +207,8 @@ class Walk {
       std::span<const std::uint8_t> at = all_.subspan(std::size_t(std::min<std::uint64_t>(offset, all_.size())));
       const double wanted = row_bytes_ * std::min(compression_.rows, height_ - y);
       const bool there = take(at, chunk) && chunk[1] >= 0 && std::size_t(chunk[1]) <= at.size();
-      if (!there || (!subsampled_ && (wanted > chunk[1] * compression_.expansion || (compression_.expansion == 1 && wanted != chunk[1]))))
+      if (!there || (!subsampled_ && (wanted > chunk[1] * compression_.expansion ||
+                                      (compression_.expansion == 1 && wanted != chunk[1]))))
         return failure(file_, fmt::format("is damaged in row {} of {}", y, height_), damaged);
     }
     return {};
@@ -279,7 +286,9 @@ Result<Image> decode(std::span<const std::uint8_t> bytes, const std::string& fil
     const Imf::ChannelList& list = header.channels();
     const std::vector<std::string> names = choose_channels(list);
     if (names.empty())
-      return failure(file, fmt::format("has the channels {}; expected R G B (A), X Y Z, Y (A), U V, Z or a single one", all_channels(list)),
+      return failure(file,
+                     fmt::format("has the channels {}; expected R G B (A), X Y Z, Y (A), U V, Z or a single one",
+                                 all_channels(list)),
                      "export it as RGB");
     const Imath::Box2i window = header.dataWindow();
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
@@ -291,7 +300,8 @@ Result<Image> decode(std::span<const std::uint8_t> bytes, const std::string& fil
       const Imf::Channel& channel = list[names[c].c_str()];
       if (channel.xSampling != 1 || channel.ySampling != 1)
         return failure(file, fmt::format("has the subsampled channel {}", names[c]), "export it at full resolution");
-      frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, pixel, pixel * std::size_t(width)));
+      frame.insert(names[c],
+                   Imf::Slice::Make(Imf::FLOAT, image.pixels.data() + c, window, pixel, pixel * std::size_t(width)));
     }
     Imf::InputPart in(input, part);
     in.setFrameBuffer(frame);
@@ -315,7 +325,8 @@ Result<Image> decode_exr(std::span<const std::uint8_t> bytes, const std::string&
 }
 
 Result<Bytes> encode_exr(const Image& image, const std::string& file) {
-  static constexpr std::array<std::array<const char*, 4>, 4> names{{{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
+  static constexpr std::array<std::array<const char*, 4>, 4> names{
+      {{"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}}};
   try {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;

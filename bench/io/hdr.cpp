@@ -11,7 +11,8 @@
 namespace luxel::io {
 namespace {
 
-// Largest value of a pixel: mantissa 255 with exponent 127 + 128, below the power of two that would overflow the exponent.
+// Largest value of a pixel: mantissa 255 with exponent 127 + 128, below the power of two that would overflow the
+// exponent.
 constexpr float largest = 255.0f / 256.0f * 0x1p127f;
 
 // Radiance RGBE. Written here since stb_image reads damaged files without end or past them.
@@ -32,7 +33,8 @@ class Reader {
   /// One scanline of `width` RGBE pixels. False at the end of the file or for a run that leaves the line.
   bool scanline(std::span<std::uint8_t> rgbe) {
     const std::size_t width = rgbe.size() / 4;
-    const bool runs = rest_.size() >= 4 && rest_[0] == 2 && rest_[1] == 2 && rest_[2] < 128 && width >= 8 && width < 32768;
+    const bool runs =
+        rest_.size() >= 4 && rest_[0] == 2 && rest_[1] == 2 && rest_[2] < 128 && width >= 8 && width < 32768;
     return runs ? planes(rgbe, width) : pixels(rgbe, width);
   }
 
@@ -117,7 +119,8 @@ Result<Image> decode_hdr(std::span<const std::uint8_t> bytes, const std::string&
   Image image{static_cast<int>(width), static_cast<int>(height), 3, {}};
   std::vector<std::uint8_t> line(4 * w);
   for (std::size_t y = 0; y < h; ++y) {
-    if (!reader.scanline(line)) return failure(file, fmt::format("is truncated or damaged in row {} of {}", y, h), damaged);
+    if (!reader.scanline(line))
+      return failure(file, fmt::format("is truncated or damaged in row {} of {}", y, h), damaged);
     for (std::size_t x = 0; x < w; ++x) {
       const float scale = line[4 * x + 3] == 0 ? 0.0f : std::ldexp(1.0f, line[4 * x + 3] - 136);
       for (std::size_t c = 0; c < 3; ++c) image.pixels.push_back(static_cast<float>(line[4 * x + c]) * scale);
@@ -127,13 +130,16 @@ Result<Image> decode_hdr(std::span<const std::uint8_t> bytes, const std::string&
 }
 
 Result<Bytes> encode_hdr(const Image& image, const std::string& file, WriteReport& report) {
-  const auto refuse = [&](const char* what) { return Status(Code::invalid_argument, fmt::format("{}: {}", file, what)); };
+  const auto refuse = [&](const char* what) {
+    return Status(Code::invalid_argument, fmt::format("{}: {}", file, what));
+  };
   if (image.pixels.size() > std::size_t{1} << 30)  // stb counts in int
     return refuse("the image has more than 2^30 values, too many for HDR; write EXR or NPY");
   if (image.channels == 2) return refuse("HDR files hold 1 or 3 channels, the image has 2; write EXR or NPY");
   if (image.channels == 4)
     for (std::size_t i = 3; i < image.pixels.size(); i += 4)
-      if (image.pixels[i] != 1.0f) return refuse("HDR files hold no alpha, and the image's is not 1 everywhere; write EXR or NPY");
+      if (image.pixels[i] != 1.0f)
+        return refuse("HDR files hold no alpha, and the image's is not 1 everywhere; write EXR or NPY");
   std::vector<float> values(image.pixels.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float v = image.pixels[i];

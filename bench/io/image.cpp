@@ -74,11 +74,14 @@ Status check_image_path(const std::string& path) {
 Result<Image> image_from_array(const Array& array, const std::string& file) {
   const std::size_t n = array.shape.size();
   if (n != 2 && n != 3)
-    return failure(file, fmt::format("has {} dimensions; an image has 2 (y, x) or 3 (y, x, channel)", n), "reshape the array");
+    return failure(file, fmt::format("has {} dimensions; an image has 2 (y, x) or 3 (y, x, channel)", n),
+                   "reshape the array");
   const std::size_t h = array.shape[0], w = array.shape[1], c = n == 3 ? array.shape[2] : 1;
   if (h < 1 || w < 1 || h > largest_side || w > largest_side)
-    return failure(file, fmt::format("is {}x{} pixels; expected 1..{} each way", w, h, largest_side), "crop or pad the array");
-  if (c < 1 || c > 4) return failure(file, fmt::format("has {} channels; expected 1..4", c), "save the channels you need");
+    return failure(file, fmt::format("is {}x{} pixels; expected 1..{} each way", w, h, largest_side),
+                   "crop or pad the array");
+  if (c < 1 || c > 4)
+    return failure(file, fmt::format("has {} channels; expected 1..4", c), "save the channels you need");
   return Image{static_cast<int>(w), static_cast<int>(h), static_cast<int>(c), to_float(array)};
 }
 
@@ -94,7 +97,8 @@ Result<Image> read_image(const std::string& path) try {
 Status write_image(const std::string& path, const Image& image, WriteReport* report) try {
   if (Status s = check_image_path(path); !s) return s;
   if (image.width < 1 || image.height < 1 || image.width > largest_side || image.height > largest_side)
-    return invalid(path, fmt::format("the image is {}x{} pixels; expected 1..{} each way", image.width, image.height, largest_side));
+    return invalid(path, fmt::format("the image is {}x{} pixels; expected 1..{} each way", image.width, image.height,
+                                     largest_side));
   if (image.channels < 1 || image.channels > 4)
     return invalid(path, fmt::format("the image has {} channels; expected 1..4", image.channels));
   if (image.pixels.size() != std::size_t(image.width) * std::size_t(image.height) * std::size_t(image.channels))

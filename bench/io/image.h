@@ -23,10 +23,10 @@ struct Image {
 };
 
 /// Reads by extension (.exr .hdr .png .npy, case ignored).
-/// EXR: the data window; half, float and uint channels; the first part that is not deep, in it the unnamed layer if that
-/// holds an image, else the first layer with R, G, B, else the first that holds one. A layer is RGB(A), XYZ, Y(A), UV, Z,
-/// or a single channel. PNG: divided by 255 (16 bits: by 65535), palettes and transparency expanded. NPY: [y][x] or
-/// [y][x][c], u1 divided by 255.
+/// EXR: the data window; half, float and uint channels; the first part that is not deep, in it the unnamed layer if
+/// that holds an image, else the first layer with R, G, B, else the first that holds one. A layer is RGB(A), XYZ, Y(A),
+/// UV, Z, or a single channel. PNG: divided by 255 (16 bits: by 65535), palettes and transparency expanded. NPY: [y][x]
+/// or [y][x][c], u1 divided by 255.
 /// Errors: io, one line with the file, what is wrong, and the remedy.
 Result<Image> read_image(const std::string& path);
 

@@ -271,7 +271,8 @@ std::vector<std::uint8_t> encode_npy(const Array& array) {
   header.resize(length - 1, ' ');
   header += '\n';
   std::string start_text(magic);
-  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, length & 255, length >> 8}) start_text += static_cast<char>(byte);
+  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, length & 255, length >> 8})
+    start_text += static_cast<char>(byte);
   header.insert(0, start_text);
   Bytes out(header.begin(), header.end());
   out.insert(out.end(), array.data.begin(), array.data.end());
@@ -280,12 +281,13 @@ std::vector<std::uint8_t> encode_npy(const Array& array) {
 
 Status write_npy(const std::string& path, const Array& array) {
   if (array.shape.size() > most_dimensions)
-    return Status(Code::invalid_argument,
-                  fmt::format("{}: the array has {} dimensions; expected 0..{}", path, array.shape.size(), most_dimensions));
+    return Status(Code::invalid_argument, fmt::format("{}: the array has {} dimensions; expected 0..{}", path,
+                                                      array.shape.size(), most_dimensions));
   const std::optional<std::size_t> wanted = byte_count(array.shape, array.dtype);
   if (!wanted || *wanted != array.data.size())
-    return Status(Code::invalid_argument, fmt::format("{}: the array holds {} bytes, which is not what its shape {} of {} needs",
-                                                      path, array.data.size(), shape_text(array.shape), name(array.dtype)));
+    return Status(Code::invalid_argument,
+                  fmt::format("{}: the array holds {} bytes, which is not what its shape {} of {} needs", path,
+                              array.data.size(), shape_text(array.shape), name(array.dtype)));
   if (!write_file_atomically(path, encode_npy(array)))
     return failure(path, "cannot be written", "check that its folder can be written to and the disk has room");
   return {};

@@ -1,5 +1,6 @@
 #include "pixels.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace luxel::io {
@@ -13,7 +14,8 @@ float uintBitsToFloat(uint u) { float v; std::memcpy(&v, &u, 4); return v; }
 #undef FN
 
 template <class T, class Encode>
-std::vector<std::uint8_t> pack_as(std::span<const float> values, std::size_t from, std::size_t to, float fill, Encode encode) {
+std::vector<std::uint8_t> pack_as(std::span<const float> values, std::size_t from, std::size_t to, float fill,
+                                  Encode encode) {
   const std::size_t pixels = values.size() / from;
   std::vector<std::uint8_t> out(pixels * to * sizeof(T));
   for (std::size_t p = 0; p < pixels; ++p)
@@ -50,7 +52,9 @@ std::vector<std::uint8_t> pack(std::span<const float> values, int count, Format 
   switch (format) {
     case Format::f16x2: case Format::f16x4: return pack_as<std::uint16_t>(values, from, to, fill, f16_bits);
     case Format::unorm8x4: return pack_as<std::uint8_t>(values, from, to, fill, unorm8_bits);
-    case Format::u32: return pack_as<std::uint32_t>(values, from, to, fill, [](float v) { return v > 0.0f ? v : 0.0f; });
+    case Format::u32:  // up to the largest float below 2^32
+      return pack_as<std::uint32_t>(values, from, to, fill,
+                                    [](float v) { return v > 0.0f ? std::min(v, 4294967040.0f) : 0.0f; });
     case Format::f32x1: case Format::f32x2: case Format::f32x4: break;
   }
   return pack_as<float>(values, from, to, fill, [](float v) { return v; });

@@ -90,10 +90,12 @@ Result<Image> decode_png(std::span<const std::uint8_t> bytes, const std::string&
   const auto length = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
   if (stbi_is_16_bit_from_memory(bytes.data(), length)) {
-    const std::unique_ptr<stbi_us, Free> values(stbi_load_16_from_memory(bytes.data(), length, &width, &height, &channels, 0));
+    const std::unique_ptr<stbi_us, Free> values(
+        stbi_load_16_from_memory(bytes.data(), length, &width, &height, &channels, 0));
     if (values) return normalised(values.get(), width, height, channels);
   } else {
-    const std::unique_ptr<stbi_uc, Free> values(stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 0));
+    const std::unique_ptr<stbi_uc, Free> values(
+        stbi_load_from_memory(bytes.data(), length, &width, &height, &channels, 0));
     if (values) return normalised(values.get(), width, height, channels);
   }
   return failure(file, "holds PNG data that cannot be decoded", damaged);
@@ -101,8 +103,8 @@ Result<Image> decode_png(std::span<const std::uint8_t> bytes, const std::string&
 
 Result<Bytes> encode_png(const Image& image, const std::string& file, WriteReport& report) {
   if (image.pixels.size() > largest_bytes)
-    return Status(Code::invalid_argument, fmt::format("{}: an image of {}x{}x{} exceeds 1 GiB as PNG; write NPY or EXR", file,
-                                                      image.width, image.height, image.channels));
+    return Status(Code::invalid_argument, fmt::format("{}: an image of {}x{}x{} exceeds 1 GiB as PNG; write NPY or EXR",
+                                                      file, image.width, image.height, image.channels));
   Bytes values(image.pixels.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const float v = image.pixels[i];

@@ -36,13 +36,15 @@ CLI::Option* add_number_of(CLI::App& command, const Kernel& kernel, std::string_
     char* end = nullptr;
     const double v = std::strtod(text.c_str(), &end);
     const bool number = end != text.c_str() && *end == '\0';
-    if (number && v >= knob.least && v <= knob.most && (!knob.integer || v == static_cast<double>(static_cast<int>(v)))) return std::string();
+    if (number && v >= knob.least && v <= knob.most && (!knob.integer || v == static_cast<double>(static_cast<int>(v))))
+      return std::string();
     return fmt::format("{} is {}; expected {}{}", text, number ? "out of range" : "not a number",
                        knob.integer ? "a whole number " : "", range_text(knob));
   }, "");
   const std::string fallback = knob.fallback.empty() ? "" : fmt::format("; default {}", knob.fallback);
   const std::string unit = knob.unit.empty() ? "" : fmt::format(" {}", knob.unit);
-  CLI::Option* option = command.add_option(std::string(name), value, fmt::format("{}: {}{}{}", knob.meaning, range_text(knob), unit, fallback));
+  CLI::Option* option = command.add_option(std::string(name), value,
+                                           fmt::format("{}: {}{}{}", knob.meaning, range_text(knob), unit, fallback));
   option->type_name(knob.integer ? "INT" : "NUMBER")->check(inside);
   return knob.fallback.empty() ? option->required() : option;
 }
@@ -97,9 +99,12 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
 }
 
 void add_device_option(CLI::App& command, std::string& device) {
-  command.add_option("--device", device,
-                     "opencl, vulkan, cpu, cpu:double, an index of `luxel devices`, or part of a device's name; default: the "
-                     "first of opencl, vulkan and cpu that works")->type_name("NAME");
+  command
+      .add_option(
+          "--device", device,
+          "opencl, vulkan, cpu, cpu:double, an index of `luxel devices`, or part of a device's name; default: the "
+          "first of opencl, vulkan and cpu that works")
+      ->type_name("NAME");
 }
 
 Result<std::shared_ptr<Context>> open_device(const std::string& device) {
@@ -158,13 +163,18 @@ CLI::Option* add_choice(CLI::App& command, const Kernel& kernel, std::string_vie
   return command.add_option(std::string(name), value, help_of(o))->type_name("NAME")->check(among(o.choices));
 }
 
-CLI::Option* add_choices(CLI::App& command, const Kernel& kernel, std::string_view name, std::vector<std::string>& values) {
+CLI::Option* add_choices(CLI::App& command, const Kernel& kernel, std::string_view name,
+                         std::vector<std::string>& values) {
   const Option& o = entry(kernel.options, name);
-  return command.add_option(std::string(name), values, help_of(o))->type_name("NAMES")->delimiter(',')->check(among(o.choices));
+  return command.add_option(std::string(name), values, help_of(o))
+      ->type_name("NAMES")
+      ->delimiter(',')
+      ->check(among(o.choices));
 }
 
 CLI::Option* add_switch(CLI::App& command, const Kernel& kernel, std::string_view name, bool& value) {
-  return command.add_flag(std::string(name), value, fmt::format("{}; default off", entry(kernel.options, name).meaning));
+  return command.add_flag(std::string(name), value,
+                          fmt::format("{}; default off", entry(kernel.options, name).meaning));
 }
 
 CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_view name, double& value) {
@@ -176,7 +186,10 @@ CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_vie
 }
 
 Format storage_format(const std::string& format, int channels) {
-  return io::format_for(format == "f16" ? Format::f16x4 : format == "unorm8" ? Format::unorm8x4 : Format::f32x1, channels);
+  return io::format_for(format == "f16"      ? Format::f16x4
+                        : format == "unorm8" ? Format::unorm8x4
+                                             : Format::f32x1,
+                        channels);
 }
 
 std::string time_text(const Times& times) {

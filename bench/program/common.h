@@ -37,14 +37,15 @@ Result<std::shared_ptr<Context>> open_device(const std::string& device);
 /// Bytes by name of a plan's resources, laid out as io::pack does.
 using ResourceData = std::map<std::string, std::vector<std::uint8_t>, std::less<>>;
 
-/// Compiles and runs a plan. What `data` holds is uploaded; what the plan writes is downloaded into it. Except in C++ it
-/// runs twice, the second time for `times`.
+/// Compiles and runs a plan. What `data` holds is uploaded; what the plan writes is downloaded into it. Except in C++
+/// it runs twice, the second time for `times`.
 Status run_plan(Context& context, const Plan& plan, ResourceData& data, Times& times);
 
 /// Options of a kernel's catalog entry, with help, range and default. The names must be in the entry.
 CLI::Option* add_variant(CLI::App& command, const Kernel& kernel, std::string& value);
 CLI::Option* add_choice(CLI::App& command, const Kernel& kernel, std::string_view name, std::string& value);
-CLI::Option* add_choices(CLI::App& command, const Kernel& kernel, std::string_view name, std::vector<std::string>& values);
+CLI::Option* add_choices(CLI::App& command, const Kernel& kernel, std::string_view name,
+                         std::vector<std::string>& values);
 CLI::Option* add_switch(CLI::App& command, const Kernel& kernel, std::string_view name, bool& value);
 CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_view name, double& value);
 CLI::Option* add_number(CLI::App& command, const Kernel& kernel, std::string_view name, int& value);

@@ -56,8 +56,9 @@ int run(const Arguments& a) {
   image.pixels = io::unpack(data["dst"], p.format, context.real64(), image.channels);
   io::WriteReport changes;
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
-  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, radius {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,
-             p.height, p.sigma, effective_radius(p), a.border, context.info().id, time_text(times), a.out, changes_text(changes));
+  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, radius {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format),
+             p.width, p.height, p.sigma, effective_radius(p), a.border, context.info().id, time_text(times), a.out,
+             changes_text(changes));
   return done;
 }
 
@@ -74,7 +75,8 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
   add_number(*command, k, "--sigma", a->sigma);
   add_number(*command, k, "--radius", a->radius);
   add_variant(*command, k, a->variant);
-  for (const auto& [name, value] : {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
+  for (const auto& [name, value] :
+       {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
     add_choice(*command, k, name, *value);
   for (const auto& [name, value] : {std::pair{"--difference", &a->difference}, {"--keep-alpha", &a->keep_alpha},
                                     {"--drop-taps", &a->drop_taps}})

@@ -27,7 +27,8 @@ void print(const Kernel& kernel) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_status) {
-  CLI::App* command = app.add_subcommand("list", "list the kernels: variants, options, knobs with their ranges and defaults");
+  CLI::App* command =
+      app.add_subcommand("list", "list the kernels: variants, options, knobs with their ranges and defaults");
   auto only = std::make_shared<std::string>();
   command->add_option("kernel", *only, "only this kernel")->type_name("NAME");
   command->callback([only, &exit_status] {
@@ -40,7 +41,9 @@ void add_list(CLI::App& app, int& exit_status) {
       print(k);
       printed = true;
     }
-    exit_status = printed ? done : complain(fmt::format("list: no kernel {}; expected {}", *only, fmt::join(names, ", ")), misused);
+    exit_status =
+        printed ? done
+                : complain(fmt::format("list: no kernel {}; expected {}", *only, fmt::join(names, ", ")), misused);
   });
 }
 

@@ -58,11 +58,13 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"luxel: GPU compute kernels for real-time global illumination, with their error and their run time", "luxel"};
+  CLI::App app{"luxel: GPU compute kernels for real-time global illumination, with their error and their run time",
+               "luxel"};
   app.require_subcommand(1);
   app.set_version_flag("--version", "luxel " LUXEL_VERSION, "Print the version and exit");
-  app.footer("Exit status: 0 done, 1 the run failed or a promise is broken, 2 wrong use. Errors are one line on stderr.\n"
-             "`luxel COMMAND --help` shows a command's options with their ranges and defaults.");
+  app.footer(
+      "Exit status: 0 done, 1 the run failed or a promise is broken, 2 wrong use. Errors are one line on stderr.\n"
+      "`luxel COMMAND --help` shows a command's options with their ranges and defaults.");
   int exit_status = done;
   add_devices(app, exit_status);
   add_list(app, exit_status);

@@ -42,15 +42,18 @@ Result<Grid> read_grid(const std::string& path) {
   const auto refuse = [&](const std::string& what) {
     return Status(Code::io, fmt::format("{}: {}; reshape it to [y][x], [y][x][c] or [z][y][x][c]", path, what));
   };
-  if (shape.size() < 2 || shape.size() > 4) return refuse(fmt::format("has {} dimensions, expected 2 to 4", shape.size()));
+  if (shape.size() < 2 || shape.size() > 4)
+    return refuse(fmt::format("has {} dimensions, expected 2 to 4", shape.size()));
   const std::size_t channels = shape.size() == 2 ? 1 : shape.back();
-  if (channels < 1 || channels > 4) return refuse(fmt::format("has {} channels (its last dimension), expected 1..4", channels));
+  if (channels < 1 || channels > 4)
+    return refuse(fmt::format("has {} channels (its last dimension), expected 1..4", channels));
   Grid grid;
   grid.volume = shape.size() == 4;
   grid.channels = static_cast<int>(channels);
   for (std::size_t axis = 0; axis < (grid.volume ? 3u : 2u); ++axis) {
     const std::size_t n = shape[(grid.volume ? 2 : 1) - axis];
-    if (n < 1 || n > io::largest_side) return refuse(fmt::format("has an extent of {}, expected 1..{}", n, io::largest_side));
+    if (n < 1 || n > io::largest_side)
+      return refuse(fmt::format("has an extent of {}, expected 1..{}", n, io::largest_side));
     grid.extent[axis] = static_cast<int>(n);
   }
   grid.values = io::to_float(array.value());
@@ -60,8 +63,9 @@ Result<Grid> read_grid(const std::string& path) {
 MipVariant variant_of(const std::string& name) {
   const std::vector<Variant>& all = kernel("mip_build").variants;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });
-  constexpr MipVariant variants[] = {MipVariant::isotropic, MipVariant::anisotropic, MipVariant::gaussian3, MipVariant::min,
-                                     MipVariant::max, MipVariant::minmax, MipVariant::moments};
+  constexpr MipVariant variants[] = {MipVariant::isotropic, MipVariant::anisotropic, MipVariant::gaussian3,
+                                     MipVariant::min,       MipVariant::max,         MipVariant::minmax,
+                                     MipVariant::moments};
   return variants[found - all.begin()];
 }
 
@@ -93,21 +97,25 @@ MipBuildParams parameters(const Arguments& a, const Grid& grid) {
 }
 
 Status check_channels(const Arguments& a, const MipBuildParams& p, const Grid& grid) {
-  const char* expected = p.variant == MipVariant::anisotropic && grid.channels != 4 ? "4 (premultiplied colour and opacity)"
-                         : one_channel(p.variant) && grid.channels != 1             ? "1"
-                         : two_channels(p.variant) && grid.channels > 2             ? "1, or 2 for pairs"
-                                                                                    : nullptr;
+  const char* expected = p.variant == MipVariant::anisotropic && grid.channels != 4
+                             ? "4 (premultiplied colour and opacity)"
+                         : one_channel(p.variant) && grid.channels != 1 ? "1"
+                         : two_channels(p.variant) && grid.channels > 2 ? "1, or 2 for pairs"
+                                                                        : nullptr;
   if (expected == nullptr) return {};
-  return Status(Code::invalid_argument, fmt::format("{} has {} channels; expected {} for variant {}: save the channels you need as .npy",
-                                                    a.in, grid.channels, expected, a.variant));
+  return Status(Code::invalid_argument,
+                fmt::format("{} has {} channels; expected {} for variant {}: save the channels you need as .npy", a.in,
+                            grid.channels, expected, a.variant));
 }
 
-Status write_level(const std::string& folder, const std::string& name, const Grid& like, const std::array<int, 3>& extent,
-                   int channels, const std::vector<float>& values) {
+Status write_level(const std::string& folder, const std::string& name, const Grid& like,
+                   const std::array<int, 3>& extent, int channels, const std::vector<float>& values) {
   std::vector<std::size_t> shape;
-  for (int axis = like.volume ? 2 : 1; axis >= 0; --axis) shape.push_back(static_cast<std::size_t>(extent[static_cast<std::size_t>(axis)]));
+  for (int axis = like.volume ? 2 : 1; axis >= 0; --axis)
+    shape.push_back(static_cast<std::size_t>(extent[static_cast<std::size_t>(axis)]));
   if (like.volume || channels > 1) shape.push_back(static_cast<std::size_t>(channels));
-  return io::write_npy((std::filesystem::path(folder) / (name + ".npy")).string(), io::make_array(std::move(shape), values));
+  return io::write_npy((std::filesystem::path(folder) / (name + ".npy")).string(),
+                       io::make_array(std::move(shape), values));
 }
 
 // What the plan counted in the finest level.
@@ -143,7 +151,8 @@ int run(const Arguments& a) {
   Times times;
   if (Status s = run_plan(context, plan.value(), data, times); !s) return complain(s.message(), failed);
 
-  if (Status s = write_level(a.out, mip_level_name(0), grid, grid.extent, grid.channels, stored); !s) return complain(s);
+  if (Status s = write_level(a.out, mip_level_name(0), grid, grid.extent, grid.channels, stored); !s)
+    return complain(s);
   const int channels = two_channels(p.variant) ? 2 : grid.channels;
   const int levels = mip_levels(p);
   for (int level = 1; level <= levels; ++level)
@@ -160,8 +169,9 @@ int run(const Arguments& a) {
   if (times.passes.size() == passes.size())
     for (std::size_t i = 0; i < passes.size(); ++i)
       if (passes[i].label == "mip_build count") times.passes[i] = 0;
-  fmt::print("mip_build {} {} {}x{}x{}, {} levels on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width, p.height, p.depth,
-             levels, context.info().id, time_text(times), a.out, p.count ? counts_text(data["counters"]) : "");
+  fmt::print("mip_build {} {} {}x{}x{}, {} levels on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,
+             p.height, p.depth, levels, context.info().id, time_text(times), a.out,
+             p.count ? counts_text(data["counters"]) : "");
   return done;
 }
 
@@ -171,11 +181,18 @@ void add_mip_build(CLI::App& app, int& exit_status) {
   const Kernel& k = kernel("mip_build");
   CLI::App* command = app.add_subcommand("mip_build", "make the coarser levels of an image or a volume");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--in", a->in, "finest level: .npy of shape [y][x], [y][x][c] or [z][y][x][c] with 1..4 channels, or an .exr, "
-                                     ".hdr or .png image")->required()->type_name("FILE");
-  command->add_option("-o,--out", a->out, "folder for level_0.npy (the finest, as stored), level_1.npy, ...; anisotropic: "
-                                          "level_1_px.npy, level_1_nx.npy, ... for each direction; float32")
-      ->required()->type_name("DIR");
+  command
+      ->add_option("--in", a->in,
+                   "finest level: .npy of shape [y][x], [y][x][c] or [z][y][x][c] with 1..4 channels, or an .exr, "
+                   ".hdr or .png image")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("-o,--out", a->out,
+                   "folder for level_0.npy (the finest, as stored), level_1.npy, ...; anisotropic: "
+                   "level_1_px.npy, level_1_nx.npy, ... for each direction; float32")
+      ->required()
+      ->type_name("DIR");
   add_variant(*command, k, a->variant);
   for (const auto& [name, value] : {std::pair{"--format", &a->format}, {"--sizes", &a->sizes}, {"--ratio", &a->ratio},
                                     {"--samples", &a->samples}, {"--input", &a->input}})
@@ -183,8 +200,9 @@ void add_mip_build(CLI::App& app, int& exit_status) {
   add_choices(*command, k, "--directions", a->directions);
   add_number(*command, k, "--levels", a->levels);
   add_device_option(*command, a->device);
-  command->footer("Colour is premultiplied by opacity, the fourth channel. Levels that are in the folder already are replaced;\n"
-                  "files of an earlier run with more levels stay.");
+  command->footer(
+      "Colour is premultiplied by opacity, the fourth channel. Levels that are in the folder already are replaced;\n"
+      "files of an earlier run with more levels stay.");
   command->callback([a, &exit_status] { exit_status = run(*a); });
 }
 
