@@ -21,21 +21,47 @@ namespace {
 namespace fs = std::filesystem;
 
 Json row(const std::string& group, double error, double q1, double median, double q3) {
-  return {{"kernel", "k"}, {"variant", "v"}, {"device", "cpu:float"}, {"scene", "s"}, {"size", "1x1"}, {"options", Json::object()},
-          {"knobs", Json::object()},
-          {"time_ms", {{"build", nullptr}, {"update", nullptr}, {"shade", {{"median", median}, {"q1", q1}, {"q3", q3}, {"n", 9}}}}},
-          {"error", {{"metric", "m"}, {"rounding", error}, {"storage", 0}, {"device", 0}, {"method", 0}, {"discretization", nullptr},
-                     {"model", nullptr}, {"stderr", nullptr}}},
-          {"bytes", 1}, {"flops", 1}, {"memory_bytes", 1}, {"on_frontier", nullptr}, {"group", group}};
+  return {
+      {"kernel", "k"},
+      {"variant", "v"},
+      {"device", "cpu:float"},
+      {"scene", "s"},
+      {"size", "1x1"},
+      {"options", Json::object()},
+      {"knobs", Json::object()},
+      {"time_ms",
+       {{"build", nullptr}, {"update", nullptr}, {"shade", {{"median", median}, {"q1", q1}, {"q3", q3}, {"n", 9}}}}},
+      {"error",
+       {{"metric", "m"},
+        {"rounding", error},
+        {"storage", 0},
+        {"device", 0},
+        {"method", 0},
+        {"discretization", nullptr},
+        {"model", nullptr},
+        {"stderr", nullptr}}},
+      {"bytes", 1},
+      {"flops", 1},
+      {"memory_bytes", 1},
+      {"on_frontier", nullptr},
+      {"group", group}};
 }
 
 Json device(const std::string& id, bool died = false) {
-  return {{"id", id}, {"name", "n"}, {"driver", "d"}, {"profile", "p"}, {"died", died}, {"problems", Json::array()},
-          {"limits", Json::array()}, {"first_use", Json::array()}};
+  return {{"id", id},
+          {"name", "n"},
+          {"driver", "d"},
+          {"profile", "p"},
+          {"died", died},
+          {"problems", Json::array()},
+          {"limits", Json::array()},
+          {"first_use", Json::array()}};
 }
 
 Json stability(bool pass) {
-  return {{"kernel", "k"}, {"case", "c"}, {"device", "cpu:float"}, {"promise", "p"}, {"bound", 1}, {"measured", pass ? 0 : 2}, {"pass", pass}};
+  return {{"kernel", "k"},  {"case", "c"}, {"device", "cpu:float"},
+          {"promise", "p"}, {"bound", 1},  {"measured", pass ? 0 : 2},
+          {"pass", pass}};
 }
 
 TEST(ReportStats, QuartilesAreInterpolated) {
@@ -49,7 +75,7 @@ TEST(ReportStats, QuartilesAreInterpolated) {
 }
 
 TEST(ReportFrontier, DominatesOnlyBeyondTheQuartiles) {
-  std::vector<Json> rows{row("a", 1e-3, 9, 10, 11),     // beaten by the next: not larger error, q3 6 < q1 9
+  std::vector<Json> rows{row("a", 1e-3, 9, 10, 11),  // beaten by the next: not larger error, q3 6 < q1 9
                          row("a", 1e-3, 4, 5, 6),
                          row("a", 1e-2, 5.5, 7, 8),     // the quartiles overlap: not beaten
                          row("a", 1e-2, 6.5, 7, 8),     // q1 above 6: beaten
@@ -93,11 +119,19 @@ TEST(ReportSchema, AcceptsTheReportAndNamesWhatIsWrong) {
   EXPECT_EQ(defect([](Json& r) { r.erase("peers"); }), "report.peers is missing");
   EXPECT_EQ(defect([](Json& r) { r["extra"] = 1; }), "report.extra is unknown");
   EXPECT_EQ(defect([](Json& r) { r["frontier"][0].erase("flops"); }), "row 0: frontier.flops is missing");
-  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["group"] = 1; r["frontier"][0]["more"] = 1; }), "row 0: frontier.more is unknown");
-  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["error"]["rounding"] = "0"; }), "row 0: frontier.error.rounding is a string; expected type n?");
-  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["time_ms"]["shade"].erase("q3"); }), "row 0: frontier.time_ms.shade.q3 is missing");
-  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["device"] = "gpu"; }), "row 0: frontier.device is gpu; expected opencl..., vulkan... or cpu...");
-  EXPECT_EQ(defect([](Json& r) { r["stability"][0]["pass"] = 1; }), "row 0: stability.pass is a number; expected type b");
+  EXPECT_EQ(defect([](Json& r) {
+              r["frontier"][0]["group"] = 1;
+              r["frontier"][0]["more"] = 1;
+            }),
+            "row 0: frontier.more is unknown");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["error"]["rounding"] = "0"; }),
+            "row 0: frontier.error.rounding is a string; expected type n?");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["time_ms"]["shade"].erase("q3"); }),
+            "row 0: frontier.time_ms.shade.q3 is missing");
+  EXPECT_EQ(defect([](Json& r) { r["frontier"][0]["device"] = "gpu"; }),
+            "row 0: frontier.device is gpu; expected opencl..., vulkan... or cpu...");
+  EXPECT_EQ(defect([](Json& r) { r["stability"][0]["pass"] = 1; }),
+            "row 0: stability.pass is a number; expected type b");
 }
 
 TEST(ReportStatus, IsOneWhereAPromiseIsBrokenOrADeviceDied) {
@@ -115,15 +149,18 @@ TEST(ReportRows, DamagedLinesAreNoRows) {
   g.devices.push_back(device("cpu:float"));
   const std::string good = Json({{"section", "stability"}, {"row", stability(false)}}).dump();
   EXPECT_EQ(take_line(g, good), good);
-  for (const std::string& bad : {good.substr(0, good.size() / 2), std::string("noise of a driver"), std::string("[1,2]"), std::string("{}"),
-                                 std::string(R"({"section":"stability","row":{"kernel":"k"}})"), std::string(R"({"section":"x","row":{}})")})
+  for (const std::string& bad :
+       {good.substr(0, good.size() / 2), std::string("noise of a driver"), std::string("[1,2]"), std::string("{}"),
+        std::string(R"({"section":"stability","row":{"kernel":"k"}})"), std::string(R"({"section":"x","row":{}})")})
     EXPECT_EQ(take_line(g, bad), "") << bad;
   EXPECT_EQ(g.stability.size(), 1u);
 }
 
 std::vector<DeviceInfo> machine_devices() {
-  return {{0, Api::opencl, "pthread-Xeon", "pocl", "pocl", "opencl:pthread-Xeon"}, {1, Api::vulkan, "llvmpipe (LLVM)", "lavapipe", "lavapipe", "vulkan:llvmpipe (LLVM)"},
-          {2, Api::cpu, "C++ float", "", "reference", "cpu:float"}, {3, Api::cpu, "C++ double", "", "reference", "cpu:double"}};
+  return {{0, Api::opencl, "pthread-Xeon", "pocl", "pocl", "opencl:pthread-Xeon"},
+          {1, Api::vulkan, "llvmpipe (LLVM)", "lavapipe", "lavapipe", "vulkan:llvmpipe (LLVM)"},
+          {2, Api::cpu, "C++ float", "", "reference", "cpu:float"},
+          {3, Api::cpu, "C++ double", "", "reference", "cpu:double"}};
 }
 
 TEST(ReportDevices, AreChosenByNameAndTheOracleIsNone) {
@@ -139,14 +176,18 @@ TEST(ReportDevices, AreChosenByNameAndTheOracleIsNone) {
   EXPECT_EQ(ids({"LLVMPIPE"}), "1");
   EXPECT_EQ(ids({"cpu"}), "2");
   EXPECT_EQ(ids({"cpu:double"}), "--device is cpu:double; expected another: every row is compared with cpu:double");
-  EXPECT_NE(ids({"gtx"}).find("--device is gtx; expected opencl, vulkan, cpu, or an index or part of a name of: 0 opencl:pthread-Xeon"), std::string::npos);
+  EXPECT_NE(
+      ids({"gtx"}).find(
+          "--device is gtx; expected opencl, vulkan, cpu, or an index or part of a name of: 0 opencl:pthread-Xeon"),
+      std::string::npos);
   EXPECT_TRUE(choose_devices({machine_devices()[2]}, {"opencl", "cpu"}, {"opencl"}).ok());
 }
 
 TEST(ReportChild, TellsHowItEndedAndKeepsItsLines) {
   const fs::path log = fs::path(testing::TempDir()) / "luxel_child.log";
   const auto shell = [&](const std::string& script, std::vector<std::string>& lines, int silence = 30) {
-    return run_child({"/bin/sh", "-c", script}, {"LUXEL_TEST_WORD=word"}, log.string(), silence, [&](const std::string& l) { lines.push_back(l); });
+    return run_child({"/bin/sh", "-c", script}, {"LUXEL_TEST_WORD=word"}, log.string(), silence,
+                     [&](const std::string& l) { lines.push_back(l); });
   };
   std::vector<std::string> lines;
   Ended ended = shell("echo one >&3; echo $LUXEL_TEST_WORD >&3; echo log; exit 4", lines);
@@ -171,7 +212,8 @@ TEST(ReportChild, TellsHowItEndedAndKeepsItsLines) {
   EXPECT_FALSE(run_child({"/nonexistent/program"}, {}, log.string(), 5, [](const std::string&) {}).started);
 }
 
-// --- The program itself ---------------------------------------------------------------------------------------------------
+// --- The program itself
+// ---------------------------------------------------------------------------------------------------
 
 struct Outcome {
   int status = -1;
@@ -190,7 +232,8 @@ Outcome run_program(const std::string& name, const std::string& arguments, const
   const fs::path folder = fs::path(testing::TempDir()) / ("luxel_report_" + name);
   fs::remove_all(folder);
   const std::string out = folder.string() + ".out", err = folder.string() + ".err";
-  const std::string command = environment + " " LUXEL_PROGRAM " report " + arguments + " -o " + folder.string() + " >" + out + " 2>" + err;
+  const std::string command =
+      environment + " " LUXEL_PROGRAM " report " + arguments + " -o " + folder.string() + " >" + out + " 2>" + err;
   Outcome outcome;
   const int state = std::system(command.c_str());
   outcome.status = WIFEXITED(state) ? WEXITSTATUS(state) : -1;
@@ -209,13 +252,15 @@ std::string test_device_options() {
 // Every number of a report that is no time.
 Json errors_of(const Json& report) {
   Json all = Json::array();
-  for (const Json& r : report["frontier"]) all.push_back({r["kernel"], r["device"], r["scene"], r["options"], r["knobs"], r["error"]});
+  for (const Json& r : report["frontier"])
+    all.push_back({r["kernel"], r["device"], r["scene"], r["options"], r["knobs"], r["error"]});
   for (const Json& r : report["stability"]) all.push_back({r["case"], r["device"], r["measured"]});
   return all;
 }
 
 constexpr const char* few_rows =
-    " --quick --only 'on step' --only 'case sigma 0 radius' --only 'case opacity 1, isotropic' --only 'mip_build isotropic f16x4 on multiples' "
+    " --quick --only 'on step' --only 'case sigma 0 radius' --only 'case opacity 1, isotropic' --only 'mip_build "
+    "isotropic f16x4 on multiples' "
     "--only 'limit triad' --only 'difference on landscape'";
 
 TEST(Report, TwoRunsAgreeOnEveryErrorToTheLastDigit) {
@@ -233,6 +278,15 @@ TEST(Report, TwoRunsAgreeOnEveryErrorToTheLastDigit) {
     EXPECT_LE(total_time(r).q1, total_time(r).median);
   }
   EXPECT_NE(first.stdout_text.find("gaussian_blur on "), std::string::npos);
+  const std::string page = slurp(fs::path(testing::TempDir()) / "luxel_report_first" / "index.html");
+  if (page.empty()) {  // only where Python or its packages are missing, and then it is said
+    EXPECT_NE(first.stderr_text.find("luxel: no page was made: "), std::string::npos) << first.stderr_text;
+  } else {
+    EXPECT_NE(page.find("<svg"), std::string::npos);
+    EXPECT_NE(page.find("<title>separable f32x"), std::string::npos) << "points name their settings";
+    for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
+      EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  }
   const Outcome second = run_program("second", few_rows + test_device_options());
   EXPECT_EQ(errors_of(first.report), errors_of(second.report));
 }
@@ -257,7 +311,8 @@ TEST(Report, ADriverThatDiesLosesOnlyItsOwnRowsAndIsNamed) {
   fs::create_directories(vendors);
   std::ofstream(vendors / "crash.icd") << LUXEL_CRASHING_DRIVER << "\n";
   const std::string environment = "OCL_ICD_VENDORS=" + vendors.string();
-  const Outcome o = run_program("died", " --quick --kernel gaussian_blur --only 'on step' --device opencl --device cpu", environment);
+  const Outcome o =
+      run_program("died", " --quick --kernel gaussian_blur --only 'on step' --device opencl --device cpu", environment);
 #if LUXEL_OPENCL
   EXPECT_EQ(o.status, 1) << o.stderr_text;
   EXPECT_NE(o.stderr_text.find("luxel: opencl died"), std::string::npos) << o.stderr_text;
@@ -270,9 +325,12 @@ TEST(Report, ADriverThatDiesLosesOnlyItsOwnRowsAndIsNamed) {
 }
 
 TEST(Report, WrongUseIsOneLineAndStatusTwo) {
-  for (const auto& [arguments, text] : {std::pair<std::string, std::string>{"--kernel blur", "luxel: --kernel is blur; expected one of: gaussian_blur, mip_build\n"},
-                                        {"--image /nonexistent.png", "luxel: --image: /nonexistent.png: "},
-                                        {"--device cpu:double", "luxel: --device is cpu:double; expected another: every row is compared with cpu:double\n"}}) {
+  for (const auto& [arguments, text] :
+       {std::pair<std::string, std::string>{"--kernel blur",
+                                            "luxel: --kernel is blur; expected one of: gaussian_blur, mip_build\n"},
+        {"--image /nonexistent.png", "luxel: --image: /nonexistent.png: "},
+        {"--device cpu:double",
+         "luxel: --device is cpu:double; expected another: every row is compared with cpu:double\n"}}) {
     const Outcome o = run_program("misuse", arguments);
     EXPECT_EQ(o.status, 2) << arguments;
     EXPECT_EQ(o.stderr_text.substr(0, text.size()), text);

@@ -1,4 +1,5 @@
-// dst = src: what a driver's compute kernels can move. Raw bits, so that f32x1 also stands for unorm8x4 and f32x2 for f16x4.
+// dst = src: what a driver's compute kernels can move. Raw bits, so that f32x1 also stands for unorm8x4 and f32x2 for
+// f16x4.
 KERNEL(limit_copy) {
     const int first = invocation_x() * PIXELS * BLOCK;
     const int y = invocation_y();
@@ -8,5 +9,6 @@ KERNEL(limit_copy) {
             store_wide(dst, params.width, first + b * PIXELS, y, load_wide(src, params.width, first + b * PIXELS, y));
         return;
     }
-    for (int i = first; i < params.width; ++i) store_pixel(dst, params.width, i, y, load_pixel(src, params.width, i, y));
+    for (int i = first; i < params.width; ++i)
+        store_pixel(dst, params.width, i, y, load_pixel(src, params.width, i, y));
 }

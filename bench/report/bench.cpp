@@ -35,9 +35,11 @@ Result<Sample> time(cases::Run& run) {
 Status fill(cases::Run& run, const BenchSetting& setting) {
   for (const Resource& r : setting.plan.resources) {
     if (std::find(setting.fill.begin(), setting.fill.end(), r.name) == setting.fill.end()) continue;
-    const std::size_t texels = r.kind == ResourceKind::buffer ? r.bytes / bytes_per_pixel(r.format)
-                                                              : static_cast<std::size_t>(r.extent[0]) * r.extent[1] * r.extent[2];
-    if (Status status = run.write(r.name, scene::noise(static_cast<int>(texels), 1, channels(r.format), 1)); !status) return status;
+    const std::size_t texels = r.kind == ResourceKind::buffer
+                                   ? r.bytes / bytes_per_pixel(r.format)
+                                   : static_cast<std::size_t>(r.extent[0]) * r.extent[1] * r.extent[2];
+    if (Status status = run.write(r.name, scene::noise(static_cast<int>(texels), 1, channels(r.format), 1)); !status)
+      return status;
   }
   return {};
 }
@@ -53,8 +55,11 @@ std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Pr
     p.format = format;
     p.input = input;
     const Result<Plan> made = plan(p, profile);
-    if (made) settings.push_back({fmt::format("{} {} {} sigma {}", text, name(format), input == Input::image ? "image" : "buffer", sigma),
-                                  made.value(), {"src"}});
+    if (made)
+      settings.push_back(
+          {fmt::format("{} {} {} sigma {}", text, name(format), input == Input::image ? "image" : "buffer", sigma),
+           made.value(),
+           {"src"}});
   };
   for (const Format format : {Format::f32x1, Format::f32x2, Format::f32x4, Format::f16x4, Format::unorm8x4})
     add("separable", GaussianVariant::separable, format, Input::buffer, 4);
@@ -75,11 +80,14 @@ std::vector<BenchSetting> mip_build_settings(const Profile& profile) {
     form.workgroup_memory = single_pass;
     const Result<Plan> made = plan(p, form);
     if (made)
-      settings.push_back({fmt::format("{} {} {}x{}x{}{}{}", cases::name(variant), name(format), extent[0], extent[1], extent[2],
-                                      ratio == 16 ? " ratio 16" : "", single_pass ? " single pass" : ""), made.value(), {"level_0"}});
+      settings.push_back({fmt::format("{} {} {}x{}x{}{}{}", cases::name(variant), name(format), extent[0], extent[1],
+                                      extent[2], ratio == 16 ? " ratio 16" : "", single_pass ? " single pass" : ""),
+                          made.value(),
+                          {"level_0"}});
   };
   constexpr std::array<int, 3> volume{128, 128, 128}, image{1920, 1080, 1};
-  for (const Format format : {Format::f32x1, Format::f32x4, Format::f16x4, Format::unorm8x4}) add(MipVariant::isotropic, format, volume, false);
+  for (const Format format : {Format::f32x1, Format::f32x4, Format::f16x4, Format::unorm8x4})
+    add(MipVariant::isotropic, format, volume, false);
   add(MipVariant::isotropic, Format::f32x4, volume, true);
   add(MipVariant::anisotropic, Format::f32x4, volume, false);
   add(MipVariant::gaussian3, Format::f32x4, volume, false);
@@ -99,7 +107,8 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   Guard guard;
   for (int i = 0; i < 10; ++i) guard.measure();
   int status = 0;
-  fmt::print("{}\n{:<58} {:>9} {:>9} {:>9} {:>7} {:>9}\n", context->info().id, "setting", "ms", "q1", "q3", "GB/s", "GFLOP/s");
+  fmt::print("{}\n{:<58} {:>9} {:>9} {:>9} {:>7} {:>9}\n", context->info().id, "setting", "ms", "q1", "q3", "GB/s",
+             "GFLOP/s");
   const auto line = [&](const std::string& where, const BenchSetting& setting) {
     auto run = cases::Run::make(*context, setting.plan);
     Status failed = run.status();
@@ -111,15 +120,17 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
       return;
     }
     const Sample& s = ms.value();
-    fmt::print("{:<58} {:>9.4g} {:>9.4g} {:>9.4g} {:>7.3g} {:>9.3g}{}\n", where, s.median, s.q1, s.q3, setting.plan.bytes / s.median * 1e-6,
-               setting.plan.flops / s.median * 1e-6, guard.quiet(guard.measure()) ? "" : "  (busy machine)");
+    fmt::print("{:<58} {:>9.4g} {:>9.4g} {:>9.4g} {:>7.3g} {:>9.3g}{}\n", where, s.median, s.q1, s.q3,
+               setting.plan.bytes / s.median * 1e-6, setting.plan.flops / s.median * 1e-6,
+               guard.quiet(guard.measure()) ? "" : "  (busy machine)");
   };
   for (const auto& [width, height] : sizes)
     if (wanted.wants("gaussian_blur"))
       for (const BenchSetting& setting : gaussian_blur_settings(width, height, context->profile()))
         line(fmt::format("gaussian_blur {}x{} {}", width, height, setting.name), setting);
   if (wanted.wants("mip_build"))
-    for (const BenchSetting& setting : mip_build_settings(context->profile())) line("mip_build " + setting.name, setting);
+    for (const BenchSetting& setting : mip_build_settings(context->profile()))
+      line("mip_build " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

@@ -11,8 +11,8 @@
 
 namespace luxel::report {
 
-/// A plan with a name, as `luxel bench` and the microbenchmarks run it. Resources are left as they are made, but for what
-/// `fill` names: times of these kernels do not depend on the values, denormals and NaN apart.
+/// A plan with a name, as `luxel bench` and the microbenchmarks run it. Resources are left as they are made, but for
+/// what `fill` names: times of these kernels do not depend on the values, denormals and NaN apart.
 struct BenchSetting {
   std::string name;
   Plan plan;

@@ -62,15 +62,24 @@ int run(const Arguments& a) {
 
 void add_bench(CLI::App& app, int& exit_status) {
   const auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("bench", "times of each kernel's main settings: median and quartiles, GB/s, GFLOP/s");
+  CLI::App* command =
+      app.add_subcommand("bench", "times of each kernel's main settings: median and quartiles, GB/s, GFLOP/s");
   command->add_option("--kernel", a->kernels, "gaussian_blur or mip_build; may be given again; default: all")
-      ->type_name("NAME")->allow_extra_args(false);
-  command->add_option("--device", a->devices, "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; may be "
-                                              "given again; default: all")->type_name("NAME")->allow_extra_args(false);
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--device", a->devices,
+                   "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; may be "
+                   "given again; default: all")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   command->add_option("--size", a->sizes, "size of images, 1x1..16384x16384; may be given again; default 1920x1080")
-      ->type_name("WxH")->allow_extra_args(false);
-  command->footer("Volumes are 128^3. The microbenchmarks of each kernel (Google Benchmark) are programs of their own in the build's\n"
-                  "bin folder: gaussian_blur_bench, mip_build_bench.");
+      ->type_name("WxH")
+      ->allow_extra_args(false);
+  command->footer(
+      "Volumes are 128^3. The microbenchmarks of each kernel (Google Benchmark) are programs of their own in the "
+      "build's\n"
+      "bin folder: gaussian_blur_bench, mip_build_bench.");
   command->callback([a, &exit_status] { exit_status = run(*a); });
 }
 

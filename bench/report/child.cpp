@@ -29,7 +29,8 @@ std::vector<std::string> merged(const std::vector<std::string>& changes) {
   std::vector<std::string> all = changes;
   for (char** v = environ; *v != nullptr; ++v) {
     const std::string_view entry = *v, name = entry.substr(0, entry.find('='));
-    const bool set = std::any_of(changes.begin(), changes.end(), [&](const std::string& c) { return c.substr(0, c.find('=')) == name; });
+    const bool set = std::any_of(changes.begin(), changes.end(),
+                                 [&](const std::string& c) { return c.substr(0, c.find('=')) == name; });
     if (!set) all.emplace_back(entry);
   }
   return all;
@@ -44,8 +45,8 @@ std::string Ended::reason(int silence_s) const {
   return fmt::format("exit status {}", status);
 }
 
-Ended run_child(const std::vector<std::string>& argv, const std::vector<std::string>& environment, const std::string& log,
-                int silence_s, const std::function<void(const std::string&)>& line) {
+Ended run_child(const std::vector<std::string>& argv, const std::vector<std::string>& environment,
+                const std::string& log, int silence_s, const std::function<void(const std::string&)>& line) {
   std::vector<std::string> words = argv, variables = merged(environment);
   const std::vector<char*> word_pointers = pointers(words), variable_pointers = pointers(variables);
   Ended ended;
@@ -60,8 +61,10 @@ Ended run_child(const std::vector<std::string>& argv, const std::vector<std::str
   if (pid == 0) {  // only calls that are safe between fork and exec
     ::dup2(out, 1);
     ::dup2(out, 2);
-    if (ends[1] == child_fd) ::fcntl(child_fd, F_SETFD, 0);
-    else ::dup2(ends[1], child_fd);
+    if (ends[1] == child_fd)
+      ::fcntl(child_fd, F_SETFD, 0);
+    else
+      ::dup2(ends[1], child_fd);
     ::execve(word_pointers[0], word_pointers.data(), variable_pointers.data());
     ::_exit(127);
   }
@@ -88,11 +91,13 @@ Ended run_child(const std::vector<std::string>& argv, const std::vector<std::str
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;
     text.append(buffer, static_cast<std::size_t>(n));
-    for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) line(text.substr(0, end));
+    for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1))
+      line(text.substr(0, end));
   }
   ::close(ends[0]);
   int state = 0;
-  while (::waitpid(pid, &state, 0) < 0 && errno == EINTR) {}
+  while (::waitpid(pid, &state, 0) < 0 && errno == EINTR) {
+  }
   if (WIFSIGNALED(state)) ended.signal = WTERMSIG(state);
   if (WIFEXITED(state)) ended.status = WEXITSTATUS(state);
   if (ended.status == 127) ended.started = false;

@@ -7,10 +7,10 @@
 namespace luxel::report {
 
 struct Ended {
-  int status = 0;         // exit status; meaningful where signal is 0 and hung is false
-  int signal = 0;         // the signal that ended it
-  bool hung = false;      // it wrote nothing for `silence_s` and was killed
-  bool started = true;    // false: it could not be run
+  int status = 0;       // exit status; meaningful where signal is 0 and hung is false
+  int signal = 0;       // the signal that ended it
+  bool hung = false;    // it wrote nothing for `silence_s` and was killed
+  bool started = true;  // false: it could not be run
 
   bool died() const { return signal != 0 || hung || !started; }
   /// "signal 11 (Segmentation fault)", "no answer for 300 s" ...
@@ -22,7 +22,7 @@ constexpr int child_fd = 3;
 
 /// Runs argv[0] with `environment` added to this process's. What it writes to `child_fd` comes line by line to `line`;
 /// stdout and stderr go to the file `log`.
-Ended run_child(const std::vector<std::string>& argv, const std::vector<std::string>& environment, const std::string& log,
-                int silence_s, const std::function<void(const std::string&)>& line);
+Ended run_child(const std::vector<std::string>& argv, const std::vector<std::string>& environment,
+                const std::string& log, int silence_s, const std::function<void(const std::string&)>& line);
 
 }  // namespace luxel::report

@@ -16,30 +16,48 @@ void add_report(CLI::App& app, int& exit_status) {
     bool first = false;
   };
   const auto a = std::make_shared<Arguments>();
-  CLI::App* command = app.add_subcommand("report", "measure error against run time, stability and peers; write tables, JSON and a page");
+  CLI::App* command = app.add_subcommand(
+      "report", "measure error against run time, stability and peers; write tables, JSON and a page");
   command->add_flag("--quick", a->settings.quick, "fewer settings: about two minutes on two cores");
-  command->add_option("--device", a->settings.devices, "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; "
-                                                       "may be given again; default: all")->type_name("NAME")->allow_extra_args(false);
+  command
+      ->add_option("--device", a->settings.devices,
+                   "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; "
+                   "may be given again; default: all")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   command->add_option("--kernel", a->settings.kernels, "gaussian_blur or mip_build; may be given again; default: all")
-      ->type_name("NAME")->allow_extra_args(false);
-  command->add_option("--image", a->settings.images, "EXR, HDR, PNG or NPY file to measure on (its middle 512x512, with --quick 256x256); may be "
-                                                     "given again; default: the photographs and skies of the data folder (LUXEL_DATA)")
-      ->type_name("FILE")->allow_extra_args(false);
-  command->add_option("--only", a->settings.only, "measure only what has this text in its label, as the progress shows it; may be given again")
-      ->type_name("TEXT")->allow_extra_args(false);
-  command->add_option("-o,--out", a->settings.out, "folder for report.json, index.html and pictures; default luxel-report")->type_name("DIR");
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--image", a->settings.images,
+                   "EXR, HDR, PNG or NPY file to measure on (its middle 512x512, with --quick 256x256); may be "
+                   "given again; default: the photographs and skies of the data folder (LUXEL_DATA)")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--only", a->settings.only,
+                   "measure only what has this text in its label, as the progress shows it; may be given again")
+      ->type_name("TEXT")
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--out", a->settings.out, "folder for report.json, index.html and pictures; default luxel-report")
+      ->type_name("DIR");
   // What the report starts its own children with.
   command->add_option("--list", a->list)->group("");
   command->add_option("--measure", a->measure)->group("");
   command->add_option("--guard-best", a->best_guard)->group("");
   command->add_flag("--first", a->first)->group("");
-  command->footer("Exit status: 0; 1 when a promise is broken or a device died; 2 for wrong use.\n"
-                  "Errors are the same to the last digit in every run; times are medians with quartiles, taken again while the\n"
-                  "machine is busy. Photographs of the data folder that are absent are named and left out.");
+  command->footer(
+      "Exit status: 0; 1 when a promise is broken or a device died; 2 for wrong use.\n"
+      "Errors are the same to the last digit in every run; times are medians with quartiles, taken again while the\n"
+      "machine is busy. Photographs of the data folder that are absent are named and left out.");
   command->callback([a, &exit_status] {
-    if (!a->list.empty()) exit_status = report::write_listing(a->list);
-    else if (!a->measure.empty()) exit_status = report::measure_device(a->settings, a->measure, a->best_guard, a->first);
-    else exit_status = report::run_report(a->settings);
+    if (!a->list.empty())
+      exit_status = report::write_listing(a->list);
+    else if (!a->measure.empty())
+      exit_status = report::measure_device(a->settings, a->measure, a->best_guard, a->first);
+    else
+      exit_status = report::run_report(a->settings);
   });
 }
 

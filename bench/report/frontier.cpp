@@ -10,8 +10,10 @@ double total_error(const Json& row) {
   double sum = 0;
   for (const char* part : {"rounding", "storage", "device", "method"}) {
     const Json& v = row.at("error").at(part);
-    if (v.is_number()) sum += v.get<double>();
-    else if (!v.is_null()) sum = std::numeric_limits<double>::quiet_NaN();
+    if (v.is_number())
+      sum += v.get<double>();
+    else if (!v.is_null())
+      sum = std::numeric_limits<double>::quiet_NaN();
   }
   return sum;
 }
@@ -29,7 +31,11 @@ Span total_time(const Json& row) {
 }
 
 void mark_frontier(std::vector<Json>& rows) {
-  struct Point { std::size_t row; double error; Span time; };
+  struct Point {
+    std::size_t row;
+    double error;
+    Span time;
+  };
   std::map<std::string, std::vector<Point>> groups;
   for (std::size_t i = 0; i < rows.size(); ++i)
     groups[rows[i].value("group", std::string())].push_back({i, total_error(rows[i]), total_time(rows[i])});

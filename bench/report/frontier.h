@@ -11,7 +11,9 @@ namespace luxel::report {
 double total_error(const Json& row);
 
 /// The row's time, all phases together (median, first and third quartile); n is 0 where nothing was timed.
-struct Span { double median = 0, q1 = 0, q3 = 0; };
+struct Span {
+  double median = 0, q1 = 0, q3 = 0;
+};
 Span total_time(const Json& row);
 
 /// Sets `on_frontier` of every row and takes `group` away. Rows compare within a group: equal receivers, format, size,

@@ -28,17 +28,23 @@ const DeviceInfo* find(const std::vector<DeviceInfo>& all, const std::string& na
   const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
   if (error == std::errc() && end == wanted.data() + wanted.size())
     if (const DeviceInfo* d = first([&](const DeviceInfo& device) { return device.index == index; })) return d;
-  if (const DeviceInfo* d = first([&](const DeviceInfo& device) { return lower(device.id) == wanted || device.profile == wanted; })) return d;
-  return wanted.empty() ? nullptr : first([&](const DeviceInfo& d) { return lower(d.name).find(wanted) != std::string::npos; });
+  if (const DeviceInfo* d =
+          first([&](const DeviceInfo& device) { return lower(device.id) == wanted || device.profile == wanted; }))
+    return d;
+  return wanted.empty() ? nullptr
+                        : first([&](const DeviceInfo& d) { return lower(d.name).find(wanted) != std::string::npos; });
 }
 
 }  // namespace
 
-Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names,
+Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all,
+                                               const std::vector<std::string>& names,
                                                const std::vector<std::string>& died) {
   std::vector<DeviceInfo> chosen;
   const auto add = [&](const DeviceInfo& d) {
-    if (std::none_of(chosen.begin(), chosen.end(), [&](const DeviceInfo& c) { return c.index == d.index && c.id == d.id; })) chosen.push_back(d);
+    if (std::none_of(chosen.begin(), chosen.end(),
+                     [&](const DeviceInfo& c) { return c.index == d.index && c.id == d.id; }))
+      chosen.push_back(d);
   };
   for (const std::string& name : names) {
     const DeviceInfo* found = find(all, name);
@@ -50,7 +56,8 @@ Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& al
       return Status(Code::missing_driver, message);
     }
     if (found->id == "cpu:double")
-      return Status(Code::invalid_argument, "--device is " + name + "; expected another: every row is compared with cpu:double");
+      return Status(Code::invalid_argument,
+                    "--device is " + name + "; expected another: every row is compared with cpu:double");
     add(*found);
   }
   if (names.empty())
@@ -91,12 +98,18 @@ std::string take_line(Gathered& g, const std::string& line) {
   const std::string section = message.value("section", "");
   if (!message.contains("row") || !check_row(section, message["row"]).empty()) return {};
   const Json& row = message["row"];
-  if (section == "frontier") g.frontier.push_back(row);
-  else if (section == "stability") g.stability.push_back(row);
-  else if (section == "left_out") g.left_out.push_back(row);
-  else if (section == "peers") g.peers.push_back(row);
-  else if (section == "reproduction") g.reproduction.push_back(row);
-  else return {};
+  if (section == "frontier")
+    g.frontier.push_back(row);
+  else if (section == "stability")
+    g.stability.push_back(row);
+  else if (section == "left_out")
+    g.left_out.push_back(row);
+  else if (section == "peers")
+    g.peers.push_back(row);
+  else if (section == "reproduction")
+    g.reproduction.push_back(row);
+  else
+    return {};
   return line;
 }
 
@@ -104,8 +117,13 @@ Json assemble(Gathered g, Json machine) {
   mark_frontier(g.frontier);
   machine["guard"] = {{"best_gflops", g.best_guard}, {"threshold", 0.9}, {"flagged", g.flagged}};
   machine["skipped"] = g.skipped;
-  return {{"schema", schema_name}, {"machine", std::move(machine)}, {"devices", std::move(g.devices)}, {"frontier", g.frontier},
-          {"stability", std::move(g.stability)}, {"left_out", std::move(g.left_out)}, {"peers", std::move(g.peers)},
+  return {{"schema", schema_name},
+          {"machine", std::move(machine)},
+          {"devices", std::move(g.devices)},
+          {"frontier", g.frontier},
+          {"stability", std::move(g.stability)},
+          {"left_out", std::move(g.left_out)},
+          {"peers", std::move(g.peers)},
           {"reproduction", std::move(g.reproduction)}};
 }
 

@@ -17,15 +17,22 @@ Result<std::vector<double>> result_of(Session& session, const BlurSetting& s) {
   return cases::blur(session.context(), s.params, in_format(*s.scene, s.params.format));
 }
 
-void left_out(Session& session, const BlurSetting& s, const std::string& what, int level, double saved_ms, double saved_bytes, double error) {
+void left_out(Session& session, const BlurSetting& s, const std::string& what, int level, double saved_ms,
+              double saved_bytes, double error) {
   session.row("left_out", {{"kernel", "gaussian_blur"},
-                           {"scene", fmt::format("{} {}", s.scene->name, size_text(s.params.width, s.params.height))}, {"what", what},
-                           {"level", level}, {"saved_ms", saved_ms}, {"saved_bytes", saved_bytes}, {"error", error},
+                           {"scene", fmt::format("{} {}", s.scene->name, size_text(s.params.width, s.params.height))},
+                           {"what", what},
+                           {"level", level},
+                           {"saved_ms", saved_ms},
+                           {"saved_bytes", saved_bytes},
+                           {"error", error},
                            {"device", session.device()}});
 }
 
-// `more` computes what `fewer` leaves out: time saved, traffic saved, and how far the results are apart over full scale.
-Status compare(Session& session, const BlurSetting& more, const BlurSetting& fewer, const std::string& what, int level) {
+// `more` computes what `fewer` leaves out: time saved, traffic saved, and how far the results are apart over full
+// scale.
+Status compare(Session& session, const BlurSetting& more, const BlurSetting& fewer, const std::string& what,
+               int level) {
   const auto a = timed_blur(session, more);
   if (!a) return a.status();
   const auto b = timed_blur(session, fewer);
@@ -46,7 +53,8 @@ Status compare(Session& session, const BlurSetting& more, const BlurSetting& few
   double full_scale = 0;
   for (const double v : in_format(*more.scene, more.params.format)) full_scale = std::fmax(full_scale, std::fabs(v));
   error /= full_scale;
-  left_out(session, fewer, what, level, summarise(saved).median, plan_more.value().bytes - plan_fewer.value().bytes, error);
+  left_out(session, fewer, what, level, summarise(saved).median, plan_more.value().bytes - plan_fewer.value().bytes,
+           error);
   return {};
 }
 
@@ -74,8 +82,8 @@ Status skipped_pass(Session& session) {
 Job job(std::string what, std::function<Status()> run) { return {"gaussian_blur " + std::move(what), std::move(run)}; }
 
 // The ratio of times of `slow` over `fast` beside a claimed value; `close`: the factor within which it counts as kept.
-Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& fast, const std::string& claim, const std::string& source,
-                 double value, double close, const std::string& reason) {
+Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& fast, const std::string& claim,
+                 const std::string& source, double value, double close, const std::string& reason) {
   const auto a = timed_blur(session, slow);
   if (!a) return a.status();
   const auto b = timed_blur(session, fast);
@@ -84,9 +92,17 @@ Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& f
   if (!pair) return pair.status();
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
   const bool kept = r.median >= value / close && r.median <= value * close;
-  session.row("reproduction", {{"claim", claim}, {"source", source}, {"source_value", value}, {"measured", r.median}, {"q1", r.q1},
-                               {"q3", r.q3}, {"verdict", kept ? "confirmed" : r.median > value ? "more than claimed" : "less than claimed"},
-                               {"reason", reason}, {"device", session.device()}});
+  session.row("reproduction", {{"claim", claim},
+                               {"source", source},
+                               {"source_value", value},
+                               {"measured", r.median},
+                               {"q1", r.q1},
+                               {"q3", r.q3},
+                               {"verdict", kept               ? "confirmed"
+                                           : r.median > value ? "more than claimed"
+                                                              : "less than claimed"},
+                               {"reason", reason},
+                               {"device", session.device()}});
   return {};
 }
 
@@ -94,7 +110,8 @@ Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& f
 Status reproduce_truncation(Session& session, double k, double claimed) {
   const double sigma = 12;
   const int reach = static_cast<int>(std::ceil(8.3 * sigma)) + 1, side = 2 * reach + 1;
-  const Shared row = std::make_shared<Scene>(Scene{"impulse (generated)", side, 1, 1, scene::impulse(side, 1, 1, reach, 0)});
+  const Shared row =
+      std::make_shared<Scene>(Scene{"impulse (generated)", side, 1, 1, scene::impulse(side, 1, 1, reach, 0)});
   BlurSetting s{row, params_for(*row, sigma, k, Format::f32x1), k, BlurMetric::half_l1};
   const auto out = result_of(session, s);
   if (!out) return out.status();
@@ -102,10 +119,16 @@ Status reproduce_truncation(Session& session, double k, double claimed) {
   const bool kept = error <= claimed * 1.25 && error >= claimed / 1.25;
   session.row("reproduction",
               {{"claim", fmt::format("truncation at k = {} sigma costs this much per axis (half L1, sigma 12)", k)},
-               {"source", k == 3 ? "Real-Time Rendering 4e, 12.1 (3 sigma rule); erfc(3/sqrt 2) = 2.7e-3" : "erfc(4/sqrt 2) = 6.3e-5"},
-               {"source_value", claimed}, {"measured", error}, {"q1", nullptr}, {"q3", nullptr},
+               {"source", k == 3 ? "Real-Time Rendering 4e, 12.1 (3 sigma rule); erfc(3/sqrt 2) = 2.7e-3"
+                                 : "erfc(4/sqrt 2) = 6.3e-5"},
+               {"source_value", claimed},
+               {"measured", error},
+               {"q1", nullptr},
+               {"q3", nullptr},
                {"verdict", kept ? "confirmed" : "not confirmed"},
-               {"reason", "the weight that is cut off: a little less than the integral beyond k sigma, since the last tap stands for half a pixel more"},
+               {"reason",
+                "the weight that is cut off: a little less than the integral beyond k sigma, since the last tap stands "
+                "for half a pixel more"},
                {"device", session.device()}});
   return {};
 }
@@ -117,9 +140,10 @@ std::vector<Job> gaussian_left_out(Session& session) {
   std::vector<Job> jobs;
   jobs.push_back(job("left out: a pass of radius 0", [&session] { return skipped_pass(session); }));
   const auto pair = [&](const char* what, int level, GaussianBlurParams more, GaussianBlurParams fewer, double k) {
-    jobs.push_back(job(fmt::format("left out: {}", what), [&session, hd, what = std::string(what), level, more, fewer, k] {
-      return compare(session, {hd, more, k}, {hd, fewer, k}, what, level);
-    }));
+    jobs.push_back(
+        job(fmt::format("left out: {}", what), [&session, hd, what = std::string(what), level, more, fewer, k] {
+          return compare(session, {hd, more, k}, {hd, fewer, k}, what, level);
+        }));
   };
   GaussianBlurParams all = params_for(*hd, 4, 3), less = all;
   less.keep_alpha = true;
@@ -129,7 +153,8 @@ std::vector<Job> gaussian_left_out(Session& session) {
   for (const Format format : {Format::unorm8x4, Format::f16x4}) {
     all = less = params_for(*hd, 4, 6, format);
     less.drop_taps = true;
-    pair(format == Format::unorm8x4 ? "taps below half a step of unorm8 (drop_taps, k = 6)" : "taps below half a step of f16 (drop_taps, k = 6)",
+    pair(format == Format::unorm8x4 ? "taps below half a step of unorm8 (drop_taps, k = 6)"
+                                    : "taps below half a step of f16 (drop_taps, k = 6)",
          1, all, less, 6);
   }
   return jobs;
@@ -144,12 +169,14 @@ std::vector<Job> gaussian_reproduction(Session& session) {
   if (!session.is_cpu() && !session.settings().quick) radii.push_back(12);
   for (const int radius : radii)
     jobs.push_back(job(fmt::format("reproduction: d^2 against 2d, R {}", radius), [=, &session] {
-      GaussianBlurParams direct = params_for(*scene, radius / 3.0, 3, Format::f32x4, GaussianVariant::direct), separable = direct;
+      GaussianBlurParams direct = params_for(*scene, radius / 3.0, 3, Format::f32x4, GaussianVariant::direct),
+                         separable = direct;
       separable.variant = GaussianVariant::separable;
       const double d = 2 * radius + 1;
-      return reproduce(session, {scene, direct, 3}, {scene, separable, 3},
-                       fmt::format("a filter of {0}x{0} costs d^2 taps in one pass and 2d in two: time ratio d/2", d), rtr, d / 2, 1.5,
-                       "the separable form writes and reads an image between its passes, which the count of taps leaves out");
+      return reproduce(
+          session, {scene, direct, 3}, {scene, separable, 3},
+          fmt::format("a filter of {0}x{0} costs d^2 taps in one pass and 2d in two: time ratio d/2", d), rtr, d / 2,
+          1.5, "the separable form writes and reads an image between its passes, which the count of taps leaves out");
     }));
   for (const int radius : {4, 12})
     jobs.push_back(job(fmt::format("reproduction: two texels a tap, R {}", radius), [=, &session] {
@@ -158,13 +185,17 @@ std::vector<Job> gaussian_reproduction(Session& session) {
       sampler.input = Input::image;
       sampler.variant = GaussianVariant::sampler;
       const double taps = 2 * radius + 1, fetches = 2 * ((radius + 1) / 2) + 1;
-      return reproduce(session, {scene, image, 3}, {scene, sampler, 3},
-                       fmt::format("bilinear taps read two texels at once: {} fetches for {} taps, time ratio of both forms", fetches, taps),
-                       "Real-Time Rendering 4e, 12.1 (Rideout)", taps / fetches, 1.25,
-                       "holds where the sampler is hardware; a software driver filters with instructions");
+      return reproduce(
+          session, {scene, image, 3}, {scene, sampler, 3},
+          fmt::format("bilinear taps read two texels at once: {} fetches for {} taps, time ratio of both forms",
+                      fetches, taps),
+          "Real-Time Rendering 4e, 12.1 (Rideout)", taps / fetches, 1.25,
+          "holds where the sampler is hardware; a software driver filters with instructions");
     }));
-  jobs.push_back(job("reproduction: truncation at 3 sigma", [&session] { return reproduce_truncation(session, 3, 2.3e-3); }));
-  jobs.push_back(job("reproduction: truncation at 4 sigma", [&session] { return reproduce_truncation(session, 4, 5e-5); }));
+  jobs.push_back(
+      job("reproduction: truncation at 3 sigma", [&session] { return reproduce_truncation(session, 3, 2.3e-3); }));
+  jobs.push_back(
+      job("reproduction: truncation at 4 sigma", [&session] { return reproduce_truncation(session, 4, 5e-5); }));
   return jobs;
 }
 

@@ -20,21 +20,26 @@ class Grid {
     jobs_.push_back({label(s), [&session = session_, s] { return measure_blur(session, s); }});
   }
 
-  void add(const Shared& scene, GaussianBlurParams p, double k, BlurMetric metric = BlurMetric::largest) { add({scene, p, k, metric}); }
+  void add(const Shared& scene, GaussianBlurParams p, double k, BlurMetric metric = BlurMetric::largest) {
+    add({scene, p, k, metric});
+  }
 
   // Every way to blur by one sigma, from coarse to fine.
-  void ways(const Shared& scene, double sigma, const std::vector<double>& ks, Format format, BlurMetric metric = BlurMetric::largest) {
+  void ways(const Shared& scene, double sigma, const std::vector<double>& ks, Format format,
+            BlurMetric metric = BlurMetric::largest) {
     for (const double k : ks) {
       const GaussianBlurParams separable = params_for(*scene, sigma, k, format);
       add(scene, separable, k, metric);
       // Interpolating in C++ costs many times the reading of a texel.
-      const bool sampled = quick_ ? k == 3 && separable.radius <= 12 : separable.radius <= (session_.is_cpu() ? 12 : 64);
+      const bool sampled =
+          quick_ ? k == 3 && separable.radius <= 12 : separable.radius <= (session_.is_cpu() ? 12 : 64);
       if (sampled) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
       GaussianBlurParams image = separable;
       image.input = Input::image;
       if (!quick_ && !session_.is_cpu()) add(scene, image, k, metric);
       const int most = session_.is_cpu() ? (quick_ ? 4 : 10) : (quick_ ? 6 : 24);
-      if (separable.radius <= most) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::direct), k, metric);
+      if (separable.radius <= most)
+        add(scene, params_for(*scene, sigma, k, format, GaussianVariant::direct), k, metric);
     }
   }
 
@@ -53,14 +58,16 @@ class Grid {
 // An image just large enough for the truth's kernel: nothing of the response is cut off.
 Shared impulse_for(double sigma) {
   const int reach = static_cast<int>(std::ceil(8.3 * sigma)) + 1, side = 2 * reach + 1;
-  return std::make_shared<Scene>(Scene{"impulse (generated)", side, side, 1, scene::impulse(side, side, 1, reach, reach)});
+  return std::make_shared<Scene>(
+      Scene{"impulse (generated)", side, side, 1, scene::impulse(side, side, 1, reach, reach)});
 }
 
 }  // namespace
 
 std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& files) {
   const bool quick = session.settings().quick;
-  const std::vector<double> sigmas = quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 16, 30};
+  const std::vector<double> sigmas =
+      quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 16, 30};
   const std::vector<double> ks = quick ? std::vector<double>{1, 2, 3, 4, 6} : std::vector<double>{1, 2, 3, 4, 5, 6};
   const std::vector<double> some_ks = quick ? std::vector<double>{3} : std::vector<double>{1, 2, 3, 4, 5, 6};
   Grid grid(session);
@@ -76,7 +83,9 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
     const Shared impulse = impulse_for(sigma);
     for (const double k : ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
-      if (!quick) grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1, GaussianVariant::sampler), k, BlurMetric::half_l1);
+      if (!quick)
+        grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1, GaussianVariant::sampler), k,
+                 BlurMetric::half_l1);
     }
   }
   const Shared edge = std::make_shared<Scene>(Scene{"step (generated)", 256, 64, 1, scene::step_edge(256, 64, 1, 128)});
@@ -108,13 +117,15 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
 
   // The size that the peers are compared at: 25 taps.
   const Shared full_hd = std::make_shared<Scene>(landscape(1920, 1080));
-  for (const Format format : session.is_cpu() ? std::vector<Format>{Format::f32x1}
-                                              : std::vector<Format>{Format::f32x4, Format::f32x1, Format::f16x4, Format::unorm8x4})
+  for (const Format format : session.is_cpu()
+                                 ? std::vector<Format>{Format::f32x1}
+                                 : std::vector<Format>{Format::f32x4, Format::f32x1, Format::f16x4, Format::unorm8x4})
     grid.add(full_hd, params_for(*full_hd, 4, 3, format), 3);
   GaussianBlurParams image = params_for(*full_hd, 4, 3);
   image.input = Input::image;
   if (!session.is_cpu()) grid.add(full_hd, image, 3);
-  if (!session.is_cpu() && !quick) grid.add(full_hd, params_for(*full_hd, 4, 3, Format::f32x4, GaussianVariant::sampler), 3);
+  if (!session.is_cpu() && !quick)
+    grid.add(full_hd, params_for(*full_hd, 4, 3, Format::f32x4, GaussianVariant::sampler), 3);
   grid.copies(*full_hd);
   return grid.take();
 }

@@ -22,7 +22,9 @@ namespace {
 using Shared = std::shared_ptr<const Scene>;
 using Clock = std::chrono::steady_clock;
 
-double ms_since(Clock::time_point begin) { return std::chrono::duration<double, std::milli>(Clock::now() - begin).count(); }
+double ms_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
 
 cv::Mat matrix(const Scene& scene, Format format) {
   const std::vector<double> values = in_format(scene, format);
@@ -44,7 +46,9 @@ struct Peer {
 };
 
 Peer on_cpu(const BlurSetting& s) {
-  struct State { cv::Mat src, dst; };
+  struct State {
+    cv::Mat src, dst;
+  };
   const auto state = std::make_shared<State>();
   state->src = matrix(*s.scene, s.params.format);
   const cv::Size size(2 * s.params.radius + 1, 2 * s.params.radius + 1);
@@ -65,7 +69,9 @@ Result<Peer> on_opencl(const BlurSetting& s, const std::string& device) {
   const std::string used = cv::ocl::Device::getDefault().name();
   if (device.find(used) == std::string::npos)
     return Status(Code::unsupported, fmt::format("OpenCV's OpenCL path took the device {}, not this one", used));
-  struct State { cv::UMat src, dst; };
+  struct State {
+    cv::UMat src, dst;
+  };
   const auto state = std::make_shared<State>();
   matrix(*s.scene, s.params.format).copyTo(state->src);
   const cv::Size size(2 * s.params.radius + 1, 2 * s.params.radius + 1);
@@ -91,12 +97,24 @@ Status beside(Session& session, const BlurSetting& s, const Result<Peer>& made, 
   const std::vector<double> source = in_format(*s.scene, s.params.format);
   const auto result = cases::blur(session.context(), s.params, source);
   if (!result) return result.status();
-  session.row("peers",
-              {{"peer", peer.name}, {"version", CV_VERSION}, {"kernel", "gaussian_blur"}, {"size", size_text(s.params.width, s.params.height)},
-               {"time_ms", to_json(summarise(pair.value().b))}, {"error", blur_error(s, source, peer.result())}, {"ratio", ratio.median},
-               {"q1", ratio.q1}, {"q3", ratio.q3}, {"device", session.device()},
-               {"options", {{"format", name(s.params.format)}, {"border", "clamp"}, {"sigma", s.params.sigma}, {"taps", 2 * s.params.radius + 1}}},
-               {"own_ms", to_json(summarise(pair.value().a))}, {"own_error", blur_error(s, source, result.value())}, {"goal", std::move(goal)}});
+  session.row("peers", {{"peer", peer.name},
+                        {"version", CV_VERSION},
+                        {"kernel", "gaussian_blur"},
+                        {"size", size_text(s.params.width, s.params.height)},
+                        {"time_ms", to_json(summarise(pair.value().b))},
+                        {"error", blur_error(s, source, peer.result())},
+                        {"ratio", ratio.median},
+                        {"q1", ratio.q1},
+                        {"q3", ratio.q3},
+                        {"device", session.device()},
+                        {"options",
+                         {{"format", name(s.params.format)},
+                          {"border", "clamp"},
+                          {"sigma", s.params.sigma},
+                          {"taps", 2 * s.params.radius + 1}}},
+                        {"own_ms", to_json(summarise(pair.value().a))},
+                        {"own_error", blur_error(s, source, result.value())},
+                        {"goal", std::move(goal)}});
   return {};
 }
 
@@ -127,8 +145,7 @@ std::vector<Job> gaussian_peers(Session& session) {
                     [&session, s, goal] { return caught([&] { return beside(session, s, on_cpu(s), goal); }); }});
     if (!opencl) continue;
     goal = software && format == Format::f32x4 ? Json(4.0) : Json();
-    jobs.push_back({fmt::format("gaussian_blur peer OpenCV OpenCL {}", name(format)),
-                    [&session, s, goal] {
+    jobs.push_back({fmt::format("gaussian_blur peer OpenCV OpenCL {}", name(format)), [&session, s, goal] {
                       return caught([&] { return beside(session, s, on_opencl(s, session.device()), goal); });
                     }});
   }
@@ -138,7 +155,8 @@ std::vector<Job> gaussian_peers(Session& session) {
 #else
 
 std::vector<Job> gaussian_peers(Session& session) {
-  session.note("problems", "peers: this build has no OpenCV (Debian: apt-get install libopencv-imgproc-dev, then build again)");
+  session.note("problems",
+               "peers: this build has no OpenCV (Debian: apt-get install libopencv-imgproc-dev, then build again)");
   return {};
 }
 

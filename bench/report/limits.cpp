@@ -9,7 +9,7 @@
 #include "host/module.h"
 
 namespace luxel::built_in {
-extern const std::span<const Module* const> limit_copy, limit_triad, limit_arithmetic;
+extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic;
 }
 
 namespace luxel::report {
@@ -31,14 +31,16 @@ Resource buffer(const char* name, Format format, std::size_t pixels, bool writte
 
 // One pass over rows of `wides` invocations.
 Plan one_pass(const char* name, const Module* module, std::vector<Resource> resources, std::vector<double> parameters,
-              std::vector<double> constants, std::uint32_t wides, std::uint32_t rows, std::array<std::uint32_t, 3> workgroup) {
+              std::vector<double> constants, std::uint32_t wides, std::uint32_t rows,
+              std::array<std::uint32_t, 3> workgroup) {
   Plan plan;
   plan.kernel = name;
   plan.resources = std::move(resources);
   Pass pass;
   pass.module = module;
   pass.label = name;
-  for (std::size_t i = 0; i < plan.resources.size(); ++i) pass.slots.push_back({Slot::Source::resource, static_cast<int>(i)});
+  for (std::size_t i = 0; i < plan.resources.size(); ++i)
+    pass.slots.push_back({Slot::Source::resource, static_cast<int>(i)});
   pass.parameters = std::move(parameters);
   pass.constants = std::move(constants);
   pass.workgroup = workgroup;
@@ -49,20 +51,29 @@ Plan one_pass(const char* name, const Module* module, std::vector<Resource> reso
 
 int lanes_of(const Profile& profile, Format format) { return std::max(profile.pixels.lanes, channels(format)); }
 
-Json entry(const char* what, const std::string& size, double bytes_per_pixel, const std::string& form, const Sample& ms, double work,
-           const char* unit) {
-  return {{"what", what}, {"size", size}, {"bytes_per_pixel", bytes_per_pixel}, {"form", form}, {"rate", work / ms.median * 1e-6},
-          {"unit", unit}, {"q1", work / ms.q3 * 1e-6}, {"q3", work / ms.q1 * 1e-6}, {"n", ms.n}};
+Json entry(const char* what, const std::string& size, double bytes_per_pixel, const std::string& form, const Sample& ms,
+           double work, const char* unit) {
+  return {{"what", what},
+          {"size", size},
+          {"bytes_per_pixel", bytes_per_pixel},
+          {"form", form},
+          {"rate", work / ms.median * 1e-6},
+          {"unit", unit},
+          {"q1", work / ms.q3 * 1e-6},
+          {"q3", work / ms.q1 * 1e-6},
+          {"n", ms.n}};
 }
 
 Status measure_arithmetic(Session& session) {
   const Profile& profile = session.context().profile();
   const int lanes = lanes_of(profile, Format::f32x4);
   const int invocations = 1 << (session.is_cpu() ? 8 : 14), rounds = 64;
-  auto run = cases::Run::make(session.context(), one_pass("limit_arithmetic", module_in(built_in::limit_arithmetic, "f32x4"),
-                                                         {buffer("dst", Format::f32x1, static_cast<std::size_t>(invocations) * lanes, true)},
-                                                         {static_cast<double>(invocations), rounds, 0.999, 0.001}, {static_cast<double>(lanes)},
-                                                         static_cast<std::uint32_t>(invocations), 1, {64, 1, 1}));
+  auto run =
+      cases::Run::make(session.context(),
+                       one_pass("limit_arithmetic", module_in(built_in::limit_arithmetic, "f32x4"),
+                                {buffer("dst", Format::f32x1, static_cast<std::size_t>(invocations) * lanes, true)},
+                                {static_cast<double>(invocations), rounds, 0.999, 0.001}, {static_cast<double>(lanes)},
+                                static_cast<std::uint32_t>(invocations), 1, {64, 1, 1}));
   if (!run) return run.status();
   const Result<Sample> ms = session.time(run.value(), "limit arithmetic");
   if (!ms) return ms.status();
@@ -79,8 +90,10 @@ Status measure_triad(Session& session) {
   auto run = cases::Run::make(
       session.context(),
       one_pass("limit_triad", module_in(built_in::limit_triad, profile.texels ? "texels_f32x4" : "f32x4"),
-               {buffer("b", Format::f32x4, pixels, false), buffer("c", Format::f32x4, pixels, false), buffer("a", Format::f32x4, pixels, true)},
-               {width, height}, {static_cast<double>(lanes)}, static_cast<std::uint32_t>(width / (lanes / 4)), height, profile.pixels.workgroup));
+               {buffer("b", Format::f32x4, pixels, false), buffer("c", Format::f32x4, pixels, false),
+                buffer("a", Format::f32x4, pixels, true)},
+               {width, height}, {static_cast<double>(lanes)}, static_cast<std::uint32_t>(width / (lanes / 4)), height,
+               profile.pixels.workgroup));
   if (!run) return run.status();
   for (const char* name : {"b", "c"})
     if (Status status = run.value().write(name, std::vector<double>(pixels * 4, 1.0)); !status) return status;
@@ -96,9 +109,12 @@ Status measure_copy(Session& session, const std::string& size, int width, int he
   for (const CopyForm& form : copy_forms(session)) {
     auto run = cases::Run::make(session.context(), copy_plan(width, height, bytes, form, session.context().profile()));
     if (!run) return run.status();
-    if (Status status = run.value().write("src", std::vector<double>(static_cast<std::size_t>(width) * height * (bytes / 4), 0.5)); !status)
+    if (Status status =
+            run.value().write("src", std::vector<double>(static_cast<std::size_t>(width) * height * (bytes / 4), 0.5));
+        !status)
       return status;
-    const Result<Sample> ms = session.time(run.value(), fmt::format("limit copy {} of {} bytes, {}", size, bytes, form.name));
+    const Result<Sample> ms =
+        session.time(run.value(), fmt::format("limit copy {} of {} bytes, {}", size, bytes, form.name));
     if (!ms) return ms.status();
     const Json e = entry("copy", size, bytes, form.name, ms.value(), 2.0 * width * height * bytes, "GB/s");
     if (best.is_null() || e["rate"] > best["rate"]) best = e;
@@ -113,7 +129,10 @@ std::vector<CopyForm> copy_forms(Session& session) {
   // The shape of the C++ execution is fixed; elsewhere than on Vulkan a texel buffer is a buffer.
   if (session.is_cpu()) return {{"buffer", false, 1}};
   if (session.context().info().api == Api::opencl) return {{"buffer", false, 1}, {"buffer, 4 pieces", false, 4}};
-  return {{"buffer", false, 1}, {"buffer, 4 pieces", false, 4}, {"texel buffer", true, 1}, {"texel buffer, 4 pieces", true, 4}};
+  return {{"buffer", false, 1},
+          {"buffer, 4 pieces", false, 4},
+          {"texel buffer", true, 1},
+          {"texel buffer, 4 pieces", true, 4}};
 }
 
 Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, const Profile& profile) {
@@ -124,9 +143,10 @@ Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, c
   if (!module || bytes_per_pixel(format) != static_cast<std::size_t>(bytes))
     return Status(Code::invalid_argument, fmt::format("a copy of {} bytes a pixel; expected 4, 8 or 16", bytes));
   return one_pass("limit_copy", module, {buffer("src", format, pixels, false), buffer("dst", format, pixels, true)},
-                  {static_cast<double>(width), static_cast<double>(height)}, {static_cast<double>(lanes), static_cast<double>(form.block)},
-                  static_cast<std::uint32_t>((width + pixels_each - 1) / pixels_each), static_cast<std::uint32_t>(height),
-                  profile.pixels.workgroup);
+                  {static_cast<double>(width), static_cast<double>(height)},
+                  {static_cast<double>(lanes), static_cast<double>(form.block)},
+                  static_cast<std::uint32_t>((width + pixels_each - 1) / pixels_each),
+                  static_cast<std::uint32_t>(height), profile.pixels.workgroup);
 }
 
 std::vector<Job> limit_jobs(Session& session) {
@@ -156,7 +176,8 @@ Json machine_limits(bool quick) {
       std::thread other([&] { work(count / 2, count); });
       work(std::size_t{0}, count / 2);
       other.join();
-      if (i > 0) ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+      if (i > 0)
+        ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
     }
     return summarise(std::move(ms));
   };
@@ -170,8 +191,15 @@ Json machine_limits(bool quick) {
   for (int i = 0; i < 20; ++i) guard.measure();
   return {entry("copy", "64 MiB", 4, "memcpy, 2 threads", copy, 2.0 * 4 * count, "GB/s"),
           entry("triad", "64 MiB", 4, "C++, 2 threads", triad, 3.0 * 4 * count, "GB/s"),
-          {{"what", "fma"}, {"size", ""}, {"bytes_per_pixel", 0}, {"form", "C++, 2 threads, 256 bits"}, {"rate", guard.best()},
-           {"unit", "GFLOP/s"}, {"q1", guard.best()}, {"q3", guard.best()}, {"n", 20}}};
+          {{"what", "fma"},
+           {"size", ""},
+           {"bytes_per_pixel", 0},
+           {"form", "C++, 2 threads, 256 bits"},
+           {"rate", guard.best()},
+           {"unit", "GFLOP/s"},
+           {"q1", guard.best()},
+           {"q3", guard.best()},
+           {"n", 20}}};
 }
 
 }  // namespace luxel::report

@@ -7,8 +7,8 @@ namespace luxel::report {
 /// The arithmetic and triad jobs of a device. Adds to `devices[].limits`.
 std::vector<Job> limit_jobs(Session& session);
 
-/// Adds copies of an image or volume of 4, 8 and 16 bytes a pixel, by the fastest of the forms that read a buffer, unless the
-/// session has them already. `size` is how rows of that size are written.
+/// Adds copies of an image or volume of 4, 8 and 16 bytes a pixel, by the fastest of the forms that read a buffer,
+/// unless the session has them already. `size` is how rows of that size are written.
 void add_copies(Session& session, std::vector<Job>& jobs, const std::string& size, int width, int rows);
 
 /// A way to copy: through a texel buffer or not, and how many pieces an invocation moves.

@@ -18,7 +18,12 @@ bool write_line(const Json& json) {
 }
 
 bool write_device(const DeviceInfo& d, int index) {
-  return write_line({{"index", index}, {"api", name_of(d.api)}, {"name", d.name}, {"driver", d.driver}, {"profile", d.profile}, {"id", d.id}});
+  return write_line({{"index", index},
+                     {"api", name_of(d.api)},
+                     {"name", d.name},
+                     {"driver", d.driver},
+                     {"profile", d.profile},
+                     {"id", d.id}});
 }
 
 void take(Listing& listing, const std::string& line) {
@@ -26,7 +31,10 @@ void take(Listing& listing, const std::string& line) {
   if (!j.is_object()) return;
   if (j.contains("problem")) return listing.problems.push_back(j.value("problem", ""));
   const std::string api = j.value("api", "cpu");
-  listing.devices.push_back({j.value("index", -1), api == "opencl" ? Api::opencl : api == "vulkan" ? Api::vulkan : Api::cpu,
+  listing.devices.push_back({j.value("index", -1),
+                             api == "opencl"   ? Api::opencl
+                             : api == "vulkan" ? Api::vulkan
+                                               : Api::cpu,
                              j.value("name", ""), j.value("driver", ""), j.value("profile", ""), j.value("id", "")});
 }
 
@@ -55,13 +63,16 @@ int write_listing(const std::string& what) {
     return 0;
   }
   const auto context = Context::open(what);
-  return (context ? write_device(context.value()->info(), -1) : write_line({{"problem", context.status().message()}})) ? 0 : 1;
+  return (context ? write_device(context.value()->info(), -1) : write_line({{"problem", context.status().message()}}))
+             ? 0
+             : 1;
 }
 
 std::string name_to_open(const DeviceInfo& device, const std::vector<DeviceInfo>& all) {
   if (device.api == Api::cpu) return device.id;
   const auto first = std::find_if(all.begin(), all.end(), [&](const DeviceInfo& d) { return d.api == device.api; });
-  return first != all.end() && first->id == device.id && first->index == device.index ? name_of(device.api) : std::to_string(device.index);
+  return first != all.end() && first->id == device.id && first->index == device.index ? name_of(device.api)
+                                                                                      : std::to_string(device.index);
 }
 
 }  // namespace luxel::report

@@ -47,10 +47,14 @@ MarchResult march(const MarchScene& s, int first, Up up, Down down) {
       if (r.d + r.vd * leave < bound) {  // in front of everything in the cell, up to where it is left
         t = leave;
         if (t >= 1) break;
-        if (tx <= ty) x = r.vx >= 0 ? (cx + 1) << level : (cx << level) - 1;
-        else x = std::clamp(static_cast<int>(r.x + r.vx * t), cx << level, ((cx + 1) << level) - 1);
-        if (ty <= tx) y = r.vy >= 0 ? (cy + 1) << level : (cy << level) - 1;
-        else y = std::clamp(static_cast<int>(r.y + r.vy * t), cy << level, ((cy + 1) << level) - 1);
+        if (tx <= ty)
+          x = r.vx >= 0 ? (cx + 1) << level : (cx << level) - 1;
+        else
+          x = std::clamp(static_cast<int>(r.x + r.vx * t), cx << level, ((cx + 1) << level) - 1);
+        if (ty <= tx)
+          y = r.vy >= 0 ? (cy + 1) << level : (cy << level) - 1;
+        else
+          y = std::clamp(static_cast<int>(r.y + r.vy * t), cy << level, ((cy + 1) << level) - 1);
         if (x < 0 || y < 0 || x >= s.width || y >= s.height) break;
         level = up(level);
       } else if (level == 0) {
@@ -91,12 +95,14 @@ MarchScene make_march_scene(const MipScene& map) {
 
 MarchResult march_full(const MarchScene& s) {
   const int top = static_cast<int>(s.levels.size()) - 1;
-  return march(s, std::min(4, top), [=](int level) { return std::min(level + 1, top); }, [](int level) { return level - 1; });
+  return march(
+      s, std::min(4, top), [=](int level) { return std::min(level + 1, top); }, [](int level) { return level - 1; });
 }
 
 MarchResult march_two(const MarchScene& s) {
   const int top = static_cast<int>(s.levels.size()) - 1, coarse = std::min(4, top);
-  return march(s, coarse, [=](int) { return coarse; }, [](int) { return 0; });
+  return march(
+      s, coarse, [=](int) { return coarse; }, [](int) { return 0; });
 }
 
 }  // namespace luxel::report

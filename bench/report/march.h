@@ -9,14 +9,14 @@ namespace luxel::report {
 
 struct MarchScene {
   int width = 0, height = 0;
-  std::vector<std::vector<float>> levels;        // lower bounds, ratio 2, sizes rounded up; 0: the map
+  std::vector<std::vector<float>> levels;  // lower bounds, ratio 2, sizes rounded up; 0: the map
   std::vector<std::pair<int, int>> sizes;
 };
 
 struct MarchResult {
   double ms = 0, steps = 0;  // steps a ray
   int rays = 0, hits = 0;
-  double sum = 0;            // of the places of all hits: equal where the same surfaces were found
+  double sum = 0;  // of the places of all hits: equal where the same surfaces were found
 };
 
 MarchScene make_march_scene(const MipScene& map);

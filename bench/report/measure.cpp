@@ -35,7 +35,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
   std::vector<std::string> missing;
   std::vector<std::shared_ptr<const Scene>> files;
   // The grids take the middle: every setting of them is measured on every device.
-  for (const Scene& scene : image_files(settings, missing)) files.push_back(std::make_shared<Scene>(middle_of(scene, settings.quick ? 256 : 512)));
+  for (const Scene& scene : image_files(settings, missing))
+    files.push_back(std::make_shared<Scene>(middle_of(scene, settings.quick ? 256 : 512)));
 
   std::vector<Job> jobs = limit_jobs(session);
   if (settings.wants("gaussian_blur")) {
@@ -58,7 +59,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())
     std::erase_if(jobs, [&](const Job& job) {
-      return std::none_of(settings.only.begin(), settings.only.end(), [&](const std::string& text) { return job.label.find(text) != std::string::npos; });
+      return std::none_of(settings.only.begin(), settings.only.end(),
+                          [&](const std::string& text) { return job.label.find(text) != std::string::npos; });
     });
   session.run(jobs);
   session.emit_promises();

@@ -74,10 +74,15 @@ double drift_of(const Values& a, const Values& b, Format format, double full_sca
   return std::fabs(sum / static_cast<double>(a.size())) / cases::step(format, 0.75 * full_scale);
 }
 
-Format in_f32(Format format) { return format == Format::f16x4 || format == Format::unorm8x4 ? Format::f32x4 : format == Format::f16x2 ? Format::f32x2 : format; }
+Format in_f32(Format format) {
+  return format == Format::f16x4 || format == Format::unorm8x4 ? Format::f32x4
+         : format == Format::f16x2                             ? Format::f32x2
+                                                               : format;
+}
 
 // The errors that no device changes: first of all levels, then (with `drift`) of each level by the other metric.
-Result<std::vector<Oracle>> compute_oracles(Session& session, const MipSetting& s, const Values& src, double full_scale, bool drift) {
+Result<std::vector<Oracle>> compute_oracles(Session& session, const MipSetting& s, const Values& src, double full_scale,
+                                            bool drift) {
   const auto exact = outcome(session.cpu_double(), s, src);
   if (!exact) return exact.status();
   const auto stored = outcome(session.cpu_float(), s, src);
@@ -88,10 +93,13 @@ Result<std::vector<Oracle>> compute_oracles(Session& session, const MipSetting& 
   if (!unrounded) return unrounded.status();
   const Pyramid truth = truth_of(s.params, src);
   const Pyramid &d = exact.value().levels, &f = stored.value().levels, &f32 = unrounded.value().levels;
-  std::vector<Oracle> oracles{{stored.value().bits, largest(f32, d, full_scale), largest(f, f32, full_scale), largest(d, truth, full_scale)}};
+  std::vector<Oracle> oracles{
+      {stored.value().bits, largest(f32, d, full_scale), largest(f, f32, full_scale), largest(d, truth, full_scale)}};
   for (int level = 1; drift && level <= mip_levels(s.params); ++level) {
     const std::string name = mip_level_name(level);
-    const auto apart = [&](const Pyramid& a, const Pyramid& b) { return drift_of(a.at(name), b.at(name), s.params.format, full_scale); };
+    const auto apart = [&](const Pyramid& a, const Pyramid& b) {
+      return drift_of(a.at(name), b.at(name), s.params.format, full_scale);
+    };
     oracles.push_back({stored.value().bits, apart(f32, d), apart(f, f32), apart(d, truth)});
   }
   return oracles;
@@ -115,10 +123,10 @@ std::string size_text(const std::array<int, 3>& e) {
 
 std::string label(const MipSetting& s) {
   const MipBuildParams& p = s.params;
-  return fmt::format("mip_build {} {}{}{}{}{}{} on {} {}", cases::name(p.variant), name(p.format), p.input == Input::image ? " image" : "",
-                     p.sizes == MipSizes::ceil ? " ceil" : "", p.ratio == 16 ? " ratio 16" : "",
-                     p.samples == MipSamples::vertices ? " vertices" : "", s.single_pass ? " single pass" : "", s.scene->name,
-                     size_text(s.scene->extent));
+  return fmt::format("mip_build {} {}{}{}{}{}{} on {} {}", cases::name(p.variant), name(p.format),
+                     p.input == Input::image ? " image" : "", p.sizes == MipSizes::ceil ? " ceil" : "",
+                     p.ratio == 16 ? " ratio 16" : "", p.samples == MipSamples::vertices ? " vertices" : "",
+                     s.single_pass ? " single pass" : "", s.scene->name, size_text(s.scene->extent));
 }
 
 MipSetting setting_for(const std::shared_ptr<const MipScene>& scene, MipVariant variant, Format format) {
@@ -130,7 +138,8 @@ std::vector<double> level_0(const MipSetting& s) {
   const int have = s.scene->channels, want = channels(format);
   Values values;
   for (std::size_t i = 0; i * have < s.scene->values.size(); ++i)
-    for (int c = 0; c < want; ++c) values.push_back(c < have ? s.scene->values[i * have + c] : c == 3 ? 1.0 : s.scene->values[i * have]);
+    for (int c = 0; c < want; ++c)
+      values.push_back(c < have ? s.scene->values[i * have + c] : c == 3 ? 1.0 : s.scene->values[i * have]);
   return cases::quantise(values, format);
 }
 
@@ -173,17 +182,33 @@ Status measure_mips(Session& session, const MipSetting& s, bool drift) {
   }
 
   const auto row = [&](const std::string& metric, const Oracle& o, double device, Json knobs) {
-    session.row("frontier",
-                {{"kernel", "mip_build"}, {"variant", cases::name(p.variant)}, {"device", session.device()}, {"scene", s.scene->name},
-                 {"size", size}, {"options", options_of(p)}, {"knobs", std::move(knobs)},
-                 {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
-                 {"error", {{"metric", metric}, {"rounding", o.rounding}, {"storage", o.storage}, {"device", device}, {"method", o.method},
-                            {"discretization", nullptr}, {"model", nullptr}, {"stderr", nullptr}}},
-                 {"bytes", run.plan().bytes}, {"flops", run.plan().flops}, {"memory_bytes", run.memory_bytes()}, {"on_frontier", nullptr},
-                 {"group", fmt::format("mip_build|{}|{}|{}|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name, size, metric,
-                                       cases::name(p.variant), name(p.format), static_cast<int>(p.sizes), p.ratio, static_cast<int>(p.samples))}});
+    session.row("frontier", {{"kernel", "mip_build"},
+                             {"variant", cases::name(p.variant)},
+                             {"device", session.device()},
+                             {"scene", s.scene->name},
+                             {"size", size},
+                             {"options", options_of(p)},
+                             {"knobs", std::move(knobs)},
+                             {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
+                             {"error",
+                              {{"metric", metric},
+                               {"rounding", o.rounding},
+                               {"storage", o.storage},
+                               {"device", device},
+                               {"method", o.method},
+                               {"discretization", nullptr},
+                               {"model", nullptr},
+                               {"stderr", nullptr}}},
+                             {"bytes", run.plan().bytes},
+                             {"flops", run.plan().flops},
+                             {"memory_bytes", run.memory_bytes()},
+                             {"on_frontier", nullptr},
+                             {"group", fmt::format("mip_build|{}|{}|{}|{}|{}|{}|{}|{}|{}", session.device(),
+                                                   s.scene->name, size, metric, cases::name(p.variant), name(p.format),
+                                                   static_cast<int>(p.sizes), p.ratio, static_cast<int>(p.samples))}});
   };
-  row("max |x - t| / max |input|, all levels", whole.value(), equal ? 0 : largest(result.value().levels, expected, full_scale),
+  row("max |x - t| / max |input|, all levels", whole.value(),
+      equal ? 0 : largest(result.value().levels, expected, full_scale),
       {{"levels", mip_levels(p)}, {"single_pass", s.single_pass}});
   for (int level = 1; drift && level <= mip_levels(p); ++level) {
     const Result<Oracle> one = oracle(static_cast<std::size_t>(level));

@@ -58,7 +58,8 @@ double mip_bytes(Session& session, const MipSetting& setting);
 struct MipScenes {
   std::shared_ptr<const MipScene> room, hall, picture, bunny, rendered_depth;  // the last two may be null
 };
-MipScenes mip_scenes(const Settings& settings, const std::vector<std::shared_ptr<const Scene>>& files, std::vector<std::string>& missing);
+MipScenes mip_scenes(const Settings& settings, const std::vector<std::shared_ptr<const Scene>>& files,
+                     std::vector<std::string>& missing);
 
 std::vector<Job> mip_grid(Session& session, const MipScenes& scenes);
 std::vector<Job> mip_left_out(Session& session, const MipScenes& scenes);

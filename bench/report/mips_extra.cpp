@@ -19,7 +19,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // `more` makes what `fewer` leaves out. What both make must have the same bits: the error is the number that differ.
-Status compare(Session& session, const MipSetting& more, const MipSetting& fewer, const std::string& what, int level, bool same_values) {
+Status compare(Session& session, const MipSetting& more, const MipSetting& fewer, const std::string& what, int level,
+               bool same_values) {
   const auto a = ready_mips(session, more), b = ready_mips(session, fewer);
   if (!a) return a.status();
   if (!b) return b.status();
@@ -35,18 +36,28 @@ Status compare(Session& session, const MipSetting& more, const MipSetting& fewer
       if (!y) return y.status();
       different += cases::count_different(x.value(), y.value());
     }
-  session.row("left_out", {{"kernel", "mip_build"}, {"scene", fewer.scene->name + " " + size_text(fewer.scene->extent)}, {"what", what},
-                           {"level", level}, {"saved_ms", summarise(saved).median},
-                           {"saved_bytes", mip_bytes(session, more) - mip_bytes(session, fewer)}, {"error", different},
+  session.row("left_out", {{"kernel", "mip_build"},
+                           {"scene", fewer.scene->name + " " + size_text(fewer.scene->extent)},
+                           {"what", what},
+                           {"level", level},
+                           {"saved_ms", summarise(saved).median},
+                           {"saved_bytes", mip_bytes(session, more) - mip_bytes(session, fewer)},
+                           {"error", different},
                            {"device", session.device()}});
   return {};
 }
 
-Status reproduce(Session& session, const std::string& claim, const std::string& source, double value, const Sample& r, bool kept,
-                 const std::string& reason) {
-  session.row("reproduction", {{"claim", claim}, {"source", source}, {"source_value", value}, {"measured", r.median},
-                               {"q1", r.n > 1 ? Json(r.q1) : Json()}, {"q3", r.n > 1 ? Json(r.q3) : Json()},
-                               {"verdict", kept ? "confirmed" : "not confirmed"}, {"reason", reason}, {"device", session.device()}});
+Status reproduce(Session& session, const std::string& claim, const std::string& source, double value, const Sample& r,
+                 bool kept, const std::string& reason) {
+  session.row("reproduction", {{"claim", claim},
+                               {"source", source},
+                               {"source_value", value},
+                               {"measured", r.median},
+                               {"q1", r.n > 1 ? Json(r.q1) : Json()},
+                               {"q3", r.n > 1 ? Json(r.q3) : Json()},
+                               {"verdict", kept ? "confirmed" : "not confirmed"},
+                               {"reason", reason},
+                               {"device", session.device()}});
   return {};
 }
 
@@ -69,7 +80,9 @@ class PlainMips {
     const auto begin = Clock::now();
     for (std::size_t l = 1; l < levels_.size(); ++l) {
       const int m = 1 << (levels_.size() - 1 - l);
-      const auto slices = [&](int first, int last) { reduce(levels_[l - 1].data(), levels_[l].data(), m, first, last); };
+      const auto slices = [&](int first, int last) {
+        reduce(levels_[l - 1].data(), levels_[l].data(), m, first, last);
+      };
       if (m < 8) {
         slices(0, m);
         continue;
@@ -93,25 +106,37 @@ class PlainMips {
         for (int x = 0; x < m; ++x, a += 8, out += 4)
           for (int c = 0; c < 4; ++c)
             out[c] = (((a[c] + a[c + 4]) + (a[row + c] + a[row + c + 4])) +
-                      ((a[slice + c] + a[slice + c + 4]) + (a[slice + row + c] + a[slice + row + c + 4]))) * 0.125f;
+                      ((a[slice + c] + a[slice + c + 4]) + (a[slice + row + c] + a[slice + row + c + 4]))) *
+                     0.125f;
       }
   }
   std::vector<std::vector<float>> levels_;
 };
 
-Json peer_row(Session& session, const std::string& peer, const std::string& version, const MipSetting& s, const Session::Pair& pair,
-              Json error, Json own_error, double ratio_scale, Json goal) {
+Json peer_row(Session& session, const std::string& peer, const std::string& version, const MipSetting& s,
+              const Session::Pair& pair, Json error, Json own_error, double ratio_scale, Json goal) {
   std::vector<double> r = ratios(pair.b, pair.a);
   for (double& v : r) v *= ratio_scale;
   const Sample ratio = summarise(r);
-  return {{"peer", peer}, {"version", version}, {"kernel", "mip_build"}, {"size", size_text(s.scene->extent)},
-          {"time_ms", to_json(summarise(pair.b))}, {"error", std::move(error)}, {"ratio", ratio.median}, {"q1", ratio.q1}, {"q3", ratio.q3},
-          {"device", session.device()}, {"options", {{"format", name(s.params.format)}, {"variant", cases::name(s.params.variant)}}},
-          {"own_ms", to_json(summarise(pair.a))}, {"own_error", std::move(own_error)}, {"goal", std::move(goal)}};
+  return {{"peer", peer},
+          {"version", version},
+          {"kernel", "mip_build"},
+          {"size", size_text(s.scene->extent)},
+          {"time_ms", to_json(summarise(pair.b))},
+          {"error", std::move(error)},
+          {"ratio", ratio.median},
+          {"q1", ratio.q1},
+          {"q3", ratio.q3},
+          {"device", session.device()},
+          {"options", {{"format", name(s.params.format)}, {"variant", cases::name(s.params.variant)}}},
+          {"own_ms", to_json(summarise(pair.a))},
+          {"own_error", std::move(own_error)},
+          {"goal", std::move(goal)}};
 }
 
 MipSetting peer_setting() {
-  const auto room = std::make_shared<MipScene>(MipScene{"room (generated)", {128, 128, 128}, 4, scene::voxel_room(128)});
+  const auto room =
+      std::make_shared<MipScene>(MipScene{"room (generated)", {128, 128, 128}, 4, scene::voxel_room(128)});
   return setting_for(room, MipVariant::isotropic, Format::f32x4);
 }
 
@@ -120,7 +145,8 @@ Status beside_loop(Session& session, Json goal) {
   const auto own = ready_mips(session, s);
   if (!own) return own.status();
   PlainMips loop(128);
-  const auto pair = session.interleave(timed(own.value()), [&]() -> Result<double> { return loop.run(); }, "peer: plain C++ loop");
+  const auto pair = session.interleave(
+      timed(own.value()), [&]() -> Result<double> { return loop.run(); }, "peer: plain C++ loop");
   if (!pair) return pair.status();
   const auto truth = truth::pyramid(s.params, s.scene->values);
   double error = 0, own_error = 0;
@@ -129,9 +155,11 @@ Status beside_loop(Session& session, Json goal) {
     if (!v) return v.status();
     const std::vector<float>& other = loop.level(static_cast<std::size_t>(level));
     own_error = std::max(own_error, cases::max_difference(v.value(), truth[level].values));
-    error = std::max(error, cases::max_difference(std::vector<double>(other.begin(), other.end()), truth[level].values));
+    error =
+        std::max(error, cases::max_difference(std::vector<double>(other.begin(), other.end()), truth[level].values));
   }
-  session.row("peers", peer_row(session, "plain C++ loops, 2 threads", __VERSION__, s, pair.value(), error, own_error, 1, std::move(goal)));
+  session.row("peers", peer_row(session, "plain C++ loops, 2 threads", __VERSION__, s, pair.value(), error, own_error,
+                                1, std::move(goal)));
   return {};
 }
 
@@ -145,14 +173,17 @@ Status beside_copy(Session& session, Json goal) {
   const double scale = bytes / (2.0 * 16 * width * height);
   Json best;
   for (const CopyForm& form : copy_forms(session)) {
-    Result<cases::Run> copy = cases::Run::make(session.context(), copy_plan(width, height, 16, form, session.context().profile()));
+    Result<cases::Run> copy =
+        cases::Run::make(session.context(), copy_plan(width, height, 16, form, session.context().profile()));
     if (!copy) return copy.status();
     const auto run = std::make_shared<cases::Run>(std::move(copy).value());
-    if (Status status = run->write("src", std::vector<double>(static_cast<std::size_t>(width) * height * 4, 0.5)); !status) return status;
+    if (Status status = run->write("src", std::vector<double>(static_cast<std::size_t>(width) * height * 4, 0.5));
+        !status)
+      return status;
     const auto pair = session.interleave(timed(own.value()), timed(run), "peer: copy");
     if (!pair) return pair.status();
-    const Json row = peer_row(session, fmt::format("best copy of as many bytes by a compute shader ({})", form.name), "-", s,
-                              pair.value(), nullptr, nullptr, scale, goal);
+    const Json row = peer_row(session, fmt::format("best copy of as many bytes by a compute shader ({})", form.name),
+                              "-", s, pair.value(), nullptr, nullptr, scale, goal);
     if (best.is_null() || row["time_ms"]["median"] < best["time_ms"]["median"]) best = row;
   }
   session.row("peers", best);
@@ -163,8 +194,10 @@ Status beside_copy(Session& session, Json goal) {
 
 std::vector<Job> mip_left_out(Session& session, const MipScenes& scenes) {
   std::vector<Job> jobs;
-  const auto pair = [&](const char* what, int level, const MipSetting& more, const MipSetting& fewer, bool same_values) {
-    jobs.push_back({fmt::format("mip_build left out: {}", what), [&session, what = std::string(what), level, more, fewer, same_values] {
+  const auto pair = [&](const char* what, int level, const MipSetting& more, const MipSetting& fewer,
+                        bool same_values) {
+    jobs.push_back({fmt::format("mip_build left out: {}", what),
+                    [&session, what = std::string(what), level, more, fewer, same_values] {
                       return compare(session, more, fewer, what, level, same_values);
                     }});
   };
@@ -179,7 +212,8 @@ std::vector<Job> mip_left_out(Session& session, const MipScenes& scenes) {
   MipSetting counted = all;
   counted.params.count = true;
   pair("counters of what was cleaned", 1, counted, all, true);
-  pair("three channels that are not there (f32x1 for f32x4)", 1, all, setting_for(scenes.room, MipVariant::isotropic, Format::f32x1), false);
+  pair("three channels that are not there (f32x1 for f32x4)", 1, all,
+       setting_for(scenes.room, MipVariant::isotropic, Format::f32x1), false);
   const MipSetting full = setting_for(scenes.hall, MipVariant::min, Format::f32x1);
   fewer = full;
   fewer.params.ratio = 16;
@@ -191,39 +225,57 @@ std::vector<Job> mip_reproduction(Session& session, const MipScenes& scenes) {
   std::vector<Job> jobs;
   jobs.push_back({"mip_build reproduction: memory of directional volumes", [&session, scenes]() -> Status {
                     const Profile& profile = session.context().profile();
-                    const Result<Plan> six = plan(setting_for(scenes.room, MipVariant::anisotropic, Format::f32x4).params, profile);
-                    const Result<Plan> one = plan(setting_for(scenes.room, MipVariant::isotropic, Format::f32x4).params, profile);
+                    const Result<Plan> six =
+                        plan(setting_for(scenes.room, MipVariant::anisotropic, Format::f32x4).params, profile);
+                    const Result<Plan> one =
+                        plan(setting_for(scenes.room, MipVariant::isotropic, Format::f32x4).params, profile);
                     if (!six) return six.status();
                     if (!one) return one.status();
                     const double more = resource_bytes(six.value()) / resource_bytes(one.value());
                     return reproduce(session, "directional volumes take 1.5 times the memory of the isotropic pyramid",
-                                     "seed 004, 2.5.3.3.10 (after Crassin et al. 2011)", 1.5, {more, more, more, 1}, std::fabs(more - 1.5) < 0.05,
-                                     "13/8: the finest level is shared, six volumes stand on it (1 + 6/7 against 1 + 1/7); 1.5 more of what is above it "
+                                     "seed 004, 2.5.3.3.10 (after Crassin et al. 2011)", 1.5, {more, more, more, 1},
+                                     std::fabs(more - 1.5) < 0.05,
+                                     "13/8: the finest level is shared, six volumes stand on it (1 + 6/7 against 1 + "
+                                     "1/7); 1.5 more of what is above it "
                                      "would be 12/7");
                   }});
   if (!session.is_cpu()) return jobs;
   // A march on the host: how many levels pay does not depend on who built them.
-  jobs.push_back({"mip_build reproduction: two levels against the full hierarchy", [&session, scenes]() -> Status {
-                    const MarchScene march = make_march_scene(*scenes.hall);
-                    std::vector<double> full, two;
-                    MarchResult a, b;
-                    const auto pair = session.interleave([&]() -> Result<double> { a = march_full(march); return a.ms; },
-                                                         [&]() -> Result<double> { b = march_two(march); return b.ms; }, "march");
-                    if (!pair) return pair.status();
-                    if (a.hits != b.hits || a.sum != b.sum) return {Code::internal, "the two marches found different hits"};
-                    const Sample r = summarise(ratios(pair.value().a, pair.value().b));
-                    return reproduce(session, "two levels (full and 1/16) beat the full hierarchy for distance maps: time ratio of the marches above 1",
-                                     "seed 002, 4.2 (McGuire et al. 2017)", 1, r, r.median > 1,
-                                     fmt::format("on a CPU core with a cache there is no stack to spill; steps a ray: full {:.1f}, two levels {:.1f}, "
-                                                 "{} rays of which {} hit, the same in both", a.steps, b.steps, a.rays, a.hits));
-                  }});
+  jobs.push_back(
+      {"mip_build reproduction: two levels against the full hierarchy", [&session, scenes]() -> Status {
+         const MarchScene march = make_march_scene(*scenes.hall);
+         std::vector<double> full, two;
+         MarchResult a, b;
+         const auto pair = session.interleave(
+             [&]() -> Result<double> {
+               a = march_full(march);
+               return a.ms;
+             },
+             [&]() -> Result<double> {
+               b = march_two(march);
+               return b.ms;
+             },
+             "march");
+         if (!pair) return pair.status();
+         if (a.hits != b.hits || a.sum != b.sum) return {Code::internal, "the two marches found different hits"};
+         const Sample r = summarise(ratios(pair.value().a, pair.value().b));
+         return reproduce(
+             session,
+             "two levels (full and 1/16) beat the full hierarchy for distance maps: time ratio of the marches above 1",
+             "seed 002, 4.2 (McGuire et al. 2017)", 1, r, r.median > 1,
+             fmt::format(
+                 "on a CPU core with a cache there is no stack to spill; steps a ray: full {:.1f}, two levels {:.1f}, "
+                 "{} rays of which {} hit, the same in both",
+                 a.steps, b.steps, a.rays, a.hits));
+       }});
   return jobs;
 }
 
 std::vector<Job> mip_peers(Session& session) {
   if (session.is_cpu()) return {};
   const std::string& profile = session.context().profile().name;
-  const Json loop_goal = profile == "pocl" ? Json(0.85) : Json(), copy_goal = profile == "lavapipe" ? Json(0.8) : Json();
+  const Json loop_goal = profile == "pocl" ? Json(0.85) : Json(),
+             copy_goal = profile == "lavapipe" ? Json(0.8) : Json();
   return {{"mip_build peer: plain C++ loop", [=, &session] { return beside_loop(session, loop_goal); }},
           {"mip_build peer: copy", [=, &session] { return beside_copy(session, copy_goal); }}};
 }

@@ -27,7 +27,8 @@ std::shared_ptr<const MipScene> bunny(const std::string& path, int side, std::ve
       for (int z = 0; z < side; ++z) {
         const std::size_t i = (static_cast<std::size_t>(x) * side + y) * side + z;
         if (bits.value().data[i / 8] >> (7 - i % 8) & 1)
-          for (int c = 0; c < 4; ++c) scene.values[((static_cast<std::size_t>(z) * side + y) * side + x) * 4 + c] = c == 3 ? 1.0 : 0.8;
+          for (int c = 0; c < 4; ++c)
+            scene.values[((static_cast<std::size_t>(z) * side + y) * side + x) * 4 + c] = c == 3 ? 1.0 : 0.8;
       }
   return std::make_shared<MipScene>(std::move(scene));
 }
@@ -53,16 +54,21 @@ std::shared_ptr<const MipScene> rendered_depth(const std::string& path, std::vec
 
 }  // namespace
 
-MipScenes mip_scenes(const Settings& settings, const std::vector<std::shared_ptr<const Scene>>& files, std::vector<std::string>& missing) {
+MipScenes mip_scenes(const Settings& settings, const std::vector<std::shared_ptr<const Scene>>& files,
+                     std::vector<std::string>& missing) {
   const int side = settings.quick ? 64 : 128;
   MipScenes scenes;
-  scenes.room = std::make_shared<MipScene>(MipScene{"room (generated)", {side, side, side}, 4, scene::voxel_room(side)});
-  scenes.hall = std::make_shared<MipScene>(MipScene{"hall (generated)", {1920, 1080, 1}, 1, scene::depth_map(1920, 1080)});
+  scenes.room =
+      std::make_shared<MipScene>(MipScene{"room (generated)", {side, side, side}, 4, scene::voxel_room(side)});
+  scenes.hall =
+      std::make_shared<MipScene>(MipScene{"hall (generated)", {1920, 1080, 1}, 1, scene::depth_map(1920, 1080)});
   if (files.empty()) {
-    scenes.picture = std::make_shared<MipScene>(MipScene{"landscape (generated)", {512, 288, 1}, 4, scene::hdr_landscape(512, 288, 4)});
+    scenes.picture = std::make_shared<MipScene>(
+        MipScene{"landscape (generated)", {512, 288, 1}, 4, scene::hdr_landscape(512, 288, 4)});
   } else {
     const Scene& f = *files.front();
-    scenes.picture = std::make_shared<MipScene>(MipScene{f.name, {f.width, f.height, 1}, 4, in_format(f, Format::f32x4)});
+    scenes.picture =
+        std::make_shared<MipScene>(MipScene{f.name, {f.width, f.height, 1}, 4, in_format(f, Format::f32x4)});
   }
   scenes.bunny = bunny(fmt::format("{}/numeric/vox_bunny_stanford_{}.npy", data_folder(), side), side, missing);
   scenes.rendered_depth = rendered_depth(data_folder() + "/gbuffer_cycles_cbox/n1_depth.exr", missing);
@@ -82,7 +88,9 @@ std::vector<Job> mip_grid(Session& session, const MipScenes& scenes) {
     add(s);
     s.params.input = Input::buffer;
     s.single_pass = true;
-    if (s.params.variant != MipVariant::anisotropic && s.params.variant != MipVariant::gaussian3 && s.params.variant != MipVariant::moments) add(s);
+    if (s.params.variant != MipVariant::anisotropic && s.params.variant != MipVariant::gaussian3 &&
+        s.params.variant != MipVariant::moments)
+      add(s);
   };
   constexpr Format colour[] = {Format::f32x4, Format::f16x4, Format::unorm8x4};
 
@@ -99,7 +107,8 @@ std::vector<Job> mip_grid(Session& session, const MipScenes& scenes) {
   // Images.
   for (const Format format : colour) ways(setting_for(scenes.picture, MipVariant::isotropic, format));
   MipSetting vertices = setting_for(scenes.room, MipVariant::gaussian3, Format::f32x4);
-  const auto odd = std::make_shared<MipScene>(MipScene{"noise (generated)", {129, 65, 33}, 4, scene::noise(129, 65 * 33, 4, 51)});
+  const auto odd =
+      std::make_shared<MipScene>(MipScene{"noise (generated)", {129, 65, 33}, 4, scene::noise(129, 65 * 33, 4, 51)});
   vertices = setting_for(odd, MipVariant::gaussian3, Format::f32x4);
   vertices.params.samples = MipSamples::vertices;
   add(vertices);

@@ -27,12 +27,13 @@ void Progress::begin(const std::string& part) {
 
 void Progress::update(double done, double of, const std::string& label) {
   const double share = of > 0 ? done / of : 1;
-  const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin_).count();
+  const auto seconds =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - begin_).count();
   if (terminal_) {
     constexpr int width = 24;
     const int full = std::clamp(static_cast<int>(share * width), 0, width);
-    std::string text = fmt::format("{:>3}:{:02} [{}{}] {:.0f}/{:.0f} {}: {}", seconds / 60, seconds % 60, std::string(full, '#'),
-                                   std::string(width - full, '.'), done, of, part_, label);
+    std::string text = fmt::format("{:>3}:{:02} [{}{}] {:.0f}/{:.0f} {}: {}", seconds / 60, seconds % 60,
+                                   std::string(full, '#'), std::string(width - full, '.'), done, of, part_, label);
     if (text.size() > columns() - 1) text.resize(columns() - 1);
     std::fprintf(stderr, "\r\033[K%s", text.c_str());
     std::fflush(stderr);

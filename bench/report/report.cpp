@@ -31,7 +31,8 @@ int misuse(const std::string& message) {
 std::string this_program() { return fs::read_symlink("/proc/self/exe").string(); }
 
 std::vector<std::string> child_arguments(const Settings& s, const std::string& device, double best, bool first) {
-  std::vector<std::string> argv{this_program(), "report", "--measure", device, "--guard-best", fmt::format("{}", best), "-o", s.out};
+  std::vector<std::string> argv{this_program(),          "report", "--measure", device, "--guard-best",
+                                fmt::format("{}", best), "-o",     s.out};
   if (s.quick) argv.push_back("--quick");
   if (first) argv.push_back("--first");
   for (const std::string& kernel : s.kernels) argv.insert(argv.end(), {"--kernel", kernel});
@@ -43,8 +44,8 @@ std::vector<std::string> child_arguments(const Settings& s, const std::string& d
 // Drivers and luxel compile into folders of the report's own, so that every first use is one.
 std::vector<std::string> child_environment(const Settings& s) {
   const std::string cache = fs::absolute(s.out).string() + "/cache";
-  return {"LUXEL_CACHE=" + cache + "/luxel", "POCL_CACHE_DIR=" + cache + "/pocl", "MESA_SHADER_CACHE_DIR=" + cache + "/mesa",
-          "OPENCV_OPENCL_CACHE_ENABLE=0"};
+  return {"LUXEL_CACHE=" + cache + "/luxel", "POCL_CACHE_DIR=" + cache + "/pocl",
+          "MESA_SHADER_CACHE_DIR=" + cache + "/mesa", "OPENCV_OPENCL_CACHE_ENABLE=0"};
 }
 
 // OpenCV's OpenCL path is for comparison on the same device, which it is told by type.
@@ -53,8 +54,14 @@ std::string opencv_device(const DeviceInfo& device) {
 }
 
 Json device_row(const DeviceInfo& d) {
-  return {{"id", d.id}, {"name", d.name}, {"driver", d.driver}, {"profile", d.profile}, {"died", false}, {"problems", Json::array()},
-          {"limits", Json::array()}, {"first_use", Json::array()}};
+  return {{"id", d.id},
+          {"name", d.name},
+          {"driver", d.driver},
+          {"profile", d.profile},
+          {"died", false},
+          {"problems", Json::array()},
+          {"limits", Json::array()},
+          {"first_use", Json::array()}};
 }
 
 void has_died(Gathered& gathered, Progress& progress, const std::string& what) {
@@ -63,8 +70,8 @@ void has_died(Gathered& gathered, Progress& progress, const std::string& what) {
   progress.line(what);
 }
 
-void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered, Progress& progress,
-             std::ofstream& rows) {
+void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered,
+             Progress& progress, std::ofstream& rows) {
   gathered.devices.push_back(device_row(device));
   progress.begin(device.id);
   std::vector<std::string> environment = child_environment(s);
@@ -72,12 +79,14 @@ void measure(const Settings& s, const DeviceInfo& device, const std::string& nam
   const std::string log = fmt::format("{}/device_{}.log", s.out, gathered.devices.size() - 1);
   const Ended ended = run_child(child_arguments(s, name, gathered.best_guard, first), environment, log, silence_s,
                                 [&](const std::string& line) {
-                                  if (const std::string row = take_line(gathered, line); !row.empty()) rows << row << std::endl;
+                                  if (const std::string row = take_line(gathered, line); !row.empty())
+                                    rows << row << std::endl;
                                   progress.update(gathered.last_done, gathered.last_of, gathered.last_label);
                                 });
   if (ended.died() || ended.status != 0)
-    has_died(gathered, progress, fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
-                                             gathered.last_label.empty() ? "its start" : gathered.last_label, log));
+    has_died(gathered, progress,
+             fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
+                         gathered.last_label.empty() ? "its start" : gathered.last_label, log));
   gathered.last_label.clear();
 }
 
@@ -116,18 +125,23 @@ int run_report(const Settings& settings) {
     if (std::find(measured_kernels().begin(), measured_kernels().end(), kernel) == measured_kernels().end())
       return misuse(fmt::format("--kernel is {}; expected one of: {}", kernel, fmt::join(measured_kernels(), ", ")));
   for (const std::string& image : settings.images)
-    if (const auto read = io::read_image(image); !read) return misuse(fmt::format("--image: {}", read.status().message()));
+    if (const auto read = io::read_image(image); !read)
+      return misuse(fmt::format("--image: {}", read.status().message()));
   std::error_code error;
   fs::create_directories(settings.out + "/pictures", error);
   const std::string listing_log = settings.out + "/devices.log";
   const Listing listing = list_devices(
-      [](const std::string& what) { return std::vector<std::string>{this_program(), "report", "--list", what}; }, listing_log);
+      [](const std::string& what) {
+        return std::vector<std::string>{this_program(), "report", "--list", what};
+      },
+      listing_log);
   const auto chosen = choose_devices(listing.devices, settings.devices, listing.died);
   if (!chosen) return misuse(chosen.status().message());
   if (!error) fs::remove_all(settings.out + "/cache", error);
   if (!error) fs::remove(settings.out + "/oracles.jsonl", error);
   std::ofstream rows(settings.out + "/rows.jsonl", std::ios::trunc);
-  if (error || !rows) return misuse(fmt::format("-o {}: cannot write there; give a folder that can be made or written", settings.out));
+  if (error || !rows)
+    return misuse(fmt::format("-o {}: cannot write there; give a folder that can be made or written", settings.out));
 
   Progress progress;
   if (settings.devices.empty())
@@ -157,11 +171,13 @@ int run_report(const Settings& settings) {
   const Json report = assemble(std::move(gathered), std::move(about));
   int status = exit_status_of(report);
   for (const std::string& defect : check_schema(report)) {
-    fmt::print(stderr, "luxel: the report does not have its shape: {}; this is a defect of luxel: please report it\n", defect);
+    fmt::print(stderr, "luxel: the report does not have its shape: {}; this is a defect of luxel: please report it\n",
+               defect);
     status = 1;
   }
   for (const auto& [file, json] : {std::pair{"report.json", &report}, {"pictures.json", &pictures}})
-    if (Status written = write_file(settings.out + "/" + file, json->dump(1) + "\n"); !written) return misuse(written.message());
+    if (Status written = write_file(settings.out + "/" + file, json->dump(1) + "\n"); !written)
+      return misuse(written.message());
   render(settings.out);
   print_tables(report, settings.out);
   return status;

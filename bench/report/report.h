@@ -1,4 +1,5 @@
-// The report: devices measured one after the other, each in a child process; rows gathered, compared, written and shown.
+// The report: devices measured one after the other, each in a child process; rows gathered, compared, written and
+// shown.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,14 +11,15 @@
 
 namespace luxel::report {
 
-/// Measures, writes DIR/report.json, pictures and page, prints tables. Returns the program's exit status: 0, 1 (a promise
-/// is broken or a device died), 2 (wrong use; one line on stderr).
+/// Measures, writes DIR/report.json, pictures and page, prints tables. Returns the program's exit status: 0, 1 (a
+/// promise is broken or a device died), 2 (wrong use; one line on stderr).
 int run_report(const Settings& settings);
 
-/// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where `names`
-/// is empty. Names of APIs that died are left out. Errors: missing_driver for a name that no device has; invalid_argument
-/// for the execution in double, which is what every row is compared with.
-Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all, const std::vector<std::string>& names,
+/// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where
+/// `names` is empty. Names of APIs that died are left out. Errors: missing_driver for a name that no device has;
+/// invalid_argument for the execution in double, which is what every row is compared with.
+Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& all,
+                                               const std::vector<std::string>& names,
                                                const std::vector<std::string>& died = {});
 
 /// Rows of all sections as they come from the children.
@@ -31,8 +33,8 @@ struct Gathered {
   std::string last_label;
 };
 
-/// Takes in one line of a child that measures devices.back(). Returns the row's text for rows.jsonl, empty where the line
-/// is none; a line that is damaged (a child may die in the middle of one) counts as none.
+/// Takes in one line of a child that measures devices.back(). Returns the row's text for rows.jsonl, empty where the
+/// line is none; a line that is damaged (a child may die in the middle of one) counts as none.
 std::string take_line(Gathered& gathered, const std::string& line);
 
 /// The whole report; marks the frontier.

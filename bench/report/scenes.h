@@ -1,4 +1,5 @@
-// Images that the report blurs: generated ones always, photographs and skies where the data folder or the user has them.
+// Images that the report blurs: generated ones always, photographs and skies where the data folder or the user has
+// them.
 #pragma once
 #include <string>
 #include <vector>

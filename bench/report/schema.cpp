@@ -7,32 +7,83 @@ namespace luxel::report {
 namespace {
 
 // Type letters: s string, n number, b boolean, o object, a array, t a time {median, q1, q3, n}; ? or null.
-struct Field { const char* name; const char* type; };
+struct Field {
+  const char* name;
+  const char* type;
+};
 using Fields = std::vector<Field>;
 
 const Fields time_fields{{"median", "n"}, {"q1", "n"}, {"q3", "n"}, {"n", "n"}};
 const Fields phases{{"build", "t?"}, {"update", "t?"}, {"shade", "t?"}};
-const Fields errors{{"metric", "s"}, {"rounding", "n?"}, {"storage", "n?"}, {"device", "n?"}, {"method", "n?"},
-                    {"discretization", "n?"}, {"model", "n?"}, {"stderr", "n?"}};
+const Fields errors{{"metric", "s"},  {"rounding", "n?"},       {"storage", "n?"}, {"device", "n?"},
+                    {"method", "n?"}, {"discretization", "n?"}, {"model", "n?"},   {"stderr", "n?"}};
 
 const std::map<std::string, Fields>& sections() {
   static const std::map<std::string, Fields> all{
       {"frontier",
-       {{"kernel", "s"}, {"variant", "s"}, {"device", "s"}, {"scene", "s"}, {"size", "s"}, {"options", "o"}, {"knobs", "o"},
-        {"time_ms", "phases"}, {"error", "errors"}, {"bytes", "n?"}, {"flops", "n?"}, {"memory_bytes", "n?"}, {"on_frontier", "b?"}}},
+       {{"kernel", "s"},
+        {"variant", "s"},
+        {"device", "s"},
+        {"scene", "s"},
+        {"size", "s"},
+        {"options", "o"},
+        {"knobs", "o"},
+        {"time_ms", "phases"},
+        {"error", "errors"},
+        {"bytes", "n?"},
+        {"flops", "n?"},
+        {"memory_bytes", "n?"},
+        {"on_frontier", "b?"}}},
       {"stability",
-       {{"kernel", "s"}, {"case", "s"}, {"device", "s"}, {"promise", "s"}, {"bound", "n"}, {"measured", "n?"}, {"pass", "b"}}},
+       {{"kernel", "s"},
+        {"case", "s"},
+        {"device", "s"},
+        {"promise", "s"},
+        {"bound", "n"},
+        {"measured", "n?"},
+        {"pass", "b"}}},
       {"left_out",
-       {{"kernel", "s"}, {"scene", "s"}, {"what", "s"}, {"level", "n"}, {"saved_ms", "n?"}, {"saved_bytes", "n?"}, {"error", "n?"},
+       {{"kernel", "s"},
+        {"scene", "s"},
+        {"what", "s"},
+        {"level", "n"},
+        {"saved_ms", "n?"},
+        {"saved_bytes", "n?"},
+        {"error", "n?"},
         {"device", "s"}}},
       {"peers",
-       {{"peer", "s"}, {"version", "s"}, {"kernel", "s"}, {"size", "s"}, {"time_ms", "t?"}, {"error", "n?"}, {"ratio", "n?"}, {"q1", "n?"}, {"q3", "n?"},
-        {"device", "s"}, {"options", "o"}, {"own_ms", "t?"}, {"own_error", "n?"}, {"goal", "n?"}}},
+       {{"peer", "s"},
+        {"version", "s"},
+        {"kernel", "s"},
+        {"size", "s"},
+        {"time_ms", "t?"},
+        {"error", "n?"},
+        {"ratio", "n?"},
+        {"q1", "n?"},
+        {"q3", "n?"},
+        {"device", "s"},
+        {"options", "o"},
+        {"own_ms", "t?"},
+        {"own_error", "n?"},
+        {"goal", "n?"}}},
       {"reproduction",
-       {{"claim", "s"}, {"source", "s"}, {"source_value", "n?"}, {"measured", "n?"}, {"q1", "n?"}, {"q3", "n?"}, {"verdict", "s"},
-        {"reason", "s"}, {"device", "s"}}},
+       {{"claim", "s"},
+        {"source", "s"},
+        {"source_value", "n?"},
+        {"measured", "n?"},
+        {"q1", "n?"},
+        {"q3", "n?"},
+        {"verdict", "s"},
+        {"reason", "s"},
+        {"device", "s"}}},
       {"devices",
-       {{"id", "s"}, {"name", "s"}, {"driver", "s"}, {"profile", "s"}, {"died", "b"}, {"problems", "a"}, {"limits", "a"},
+       {{"id", "s"},
+        {"name", "s"},
+        {"driver", "s"},
+        {"profile", "s"},
+        {"died", "b"},
+        {"problems", "a"},
+        {"limits", "a"},
         {"first_use", "a"}}},
   };
   return all;
@@ -46,8 +97,11 @@ void check_value(const std::string& where, const Json& v, const std::string& typ
   if (kind == "t") return check_fields(where, v, time_fields, wrong);
   if (kind == "phases") return check_fields(where, v, phases, wrong);
   if (kind == "errors") return check_fields(where, v, errors, wrong);
-  const bool right = kind == "s" ? v.is_string() : kind == "n" ? v.is_number() : kind == "b" ? v.is_boolean()
-                     : kind == "o" ? v.is_object() : v.is_array();
+  const bool right = kind == "s"   ? v.is_string()
+                     : kind == "n" ? v.is_number()
+                     : kind == "b" ? v.is_boolean()
+                     : kind == "o" ? v.is_object()
+                                   : v.is_array();
   if (!right) wrong.push_back(where + " is a " + v.type_name() + "; expected type " + type);
 }
 
@@ -57,8 +111,10 @@ void check_fields(const std::string& where, const Json& value, const Fields& fie
     return;
   }
   for (const Field& field : fields) {
-    if (!value.contains(field.name)) wrong.push_back(where + "." + field.name + " is missing");
-    else check_value(where + "." + field.name, value.at(field.name), field.type, wrong);
+    if (!value.contains(field.name))
+      wrong.push_back(where + "." + field.name + " is missing");
+    else
+      check_value(where + "." + field.name, value.at(field.name), field.type, wrong);
   }
   for (const auto& [name, v] : value.items()) {
     const std::string& key = name;
@@ -86,14 +142,16 @@ std::vector<std::string> check_row(const std::string& section, const Json& row) 
 
 std::vector<std::string> check_schema(const Json& report) {
   std::vector<std::string> wrong;
-  const Fields top{{"schema", "s"}, {"machine", "o"}, {"devices", "a"}, {"frontier", "a"}, {"stability", "a"},
-                   {"left_out", "a"}, {"peers", "a"}, {"reproduction", "a"}};
+  const Fields top{{"schema", "s"},    {"machine", "o"},  {"devices", "a"}, {"frontier", "a"},
+                   {"stability", "a"}, {"left_out", "a"}, {"peers", "a"},   {"reproduction", "a"}};
   check_fields("report", report, top, wrong);
   if (!wrong.empty()) return wrong;
-  if (report["schema"] != schema_name) wrong.push_back("report.schema is " + report["schema"].dump() + "; expected " + schema_name);
+  if (report["schema"] != schema_name)
+    wrong.push_back("report.schema is " + report["schema"].dump() + "; expected " + schema_name);
   for (const char* section : {"devices", "frontier", "stability", "left_out", "peers", "reproduction"})
     for (std::size_t i = 0; i < report[section].size(); ++i)
-      for (const std::string& line : check_row(section, report[section][i])) wrong.push_back("row " + std::to_string(i) + ": " + line);
+      for (const std::string& line : check_row(section, report[section][i]))
+        wrong.push_back("row " + std::to_string(i) + ": " + line);
   return wrong;
 }
 

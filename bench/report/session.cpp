@@ -64,9 +64,13 @@ void Session::run(const std::vector<Job>& jobs) {
     if (status) continue;
     note("problems", fmt::format("{}: {}", jobs[i].label, status.message()));
     if (status.code() == Code::unsupported) continue;
-    row("stability", {{"kernel", jobs[i].label.substr(0, jobs[i].label.find(' '))}, {"case", "runs: " + jobs[i].label},
-                      {"device", device()}, {"promise", "every setting of the report runs: " + status.message()}, {"bound", 0},
-                      {"measured", 1}, {"pass", false}});
+    row("stability", {{"kernel", jobs[i].label.substr(0, jobs[i].label.find(' '))},
+                      {"case", "runs: " + jobs[i].label},
+                      {"device", device()},
+                      {"promise", "every setting of the report runs: " + status.message()},
+                      {"bound", 0},
+                      {"measured", 1},
+                      {"pass", false}});
   }
   progress(jobs.size(), jobs.size(), "");
 }
@@ -102,33 +106,37 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   // Quartiles need five; where a run of the C++ execution takes long, three must do.
   const int least = is_cpu() && one > 50 ? 3 : 5;
   const int n = std::clamp(static_cast<int>(budget_ms / (one * repeat)), least, settings_.quick ? 9 : 21);
-  return guarded([&]() -> Result<Sample> {
-    std::vector<double> ms;
-    for (int i = 0; i < n; ++i) {
-      Times times;
-      if (Status status = run.go(repeat, &times); !status) return status;
-      ms.push_back(times.total / repeat);
-    }
-    return summarise(std::move(ms));
-  }, label);
+  return guarded(
+      [&]() -> Result<Sample> {
+        std::vector<double> ms;
+        for (int i = 0; i < n; ++i) {
+          Times times;
+          if (Status status = run.go(repeat, &times); !status) return status;
+          ms.push_back(times.total / repeat);
+        }
+        return summarise(std::move(ms));
+      },
+      label);
 }
 
 Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const std::string& label) {
   for (const Timed* warm : {&a, &b, &a, &b})
     if (const Result<double> ms = (*warm)(); !ms) return ms.status();
   const int n = settings_.quick ? 9 : 25;
-  return guarded([&]() -> Result<Pair> {
-    Pair pair;
-    for (int i = 0; i < n; ++i) {
-      const Result<double> first = a();
-      if (!first) return first.status();
-      const Result<double> second = b();
-      if (!second) return second.status();
-      pair.a.push_back(first.value());
-      pair.b.push_back(second.value());
-    }
-    return pair;
-  }, label);
+  return guarded(
+      [&]() -> Result<Pair> {
+        Pair pair;
+        for (int i = 0; i < n; ++i) {
+          const Result<double> first = a();
+          if (!first) return first.status();
+          const Result<double> second = b();
+          if (!second) return second.status();
+          pair.a.push_back(first.value());
+          pair.b.push_back(second.value());
+        }
+        return pair;
+      },
+      label);
 }
 
 void Session::load_oracles() {
@@ -137,8 +145,8 @@ void Session::load_oracles() {
     const Json j = Json::parse(line, nullptr, false);
     if (!j.is_object()) continue;
     const auto number = [&](const char* field) { return j.at(field).is_number() ? j.at(field).get<double>() : NAN; };
-    oracles_[j.at("key").get<std::string>()] = {j.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"),
-                                                number("method")};
+    oracles_[j.at("key").get<std::string>()] = {j.at("bits").get<std::uint64_t>(), number("rounding"),
+                                                number("storage"), number("method")};
   }
 }
 
@@ -148,7 +156,9 @@ Result<Oracle> Session::oracle(const std::string& key, const std::function<Resul
   if (!made) return made;
   const Oracle& o = oracles_[key] = made.value();
   std::ofstream(settings_.out + "/oracles.jsonl", std::ios::app)
-      << Json({{"key", key}, {"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}}).dump() + "\n";
+      << Json({{"key", key}, {"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}})
+                 .dump() +
+             "\n";
   return made;
 }
 
@@ -160,13 +170,37 @@ void Session::promise_bits(const std::string& kernel, bool equal, const std::str
   if (bits.first.empty()) bits.first = label;
 }
 
+void Session::promise_share(const std::string& kernel, const std::string& name, const std::string& promise,
+                            double share, const std::string& label) {
+  Share& s = shares_[{kernel, name}];
+  s.promise = promise;
+  if (std::isnan(s.most) || share <= s.most) return;
+  s.most = share;  // NaN too, which stays
+  s.worst = label;
+}
+
 void Session::emit_promises() {
   for (const auto& [kernel, bits] : bits_)
-    row("stability", {{"kernel", kernel}, {"case", "bits of the whole grid"}, {"device", device()},
-                      {"promise", fmt::format("every result of the frontier's {:.0f} settings that are free of samplers has the bits of "
-                                              "the C++ execution in float (settings that differ{})", bits.checked,
-                                              bits.first.empty() ? "" : "; first: " + bits.first)},
-                      {"bound", 0}, {"measured", bits.different}, {"pass", bits.different == 0}});
+    row("stability",
+        {{"kernel", kernel},
+         {"case", "bits of the whole grid"},
+         {"device", device()},
+         {"promise",
+          fmt::format("every result of the frontier's {:.0f} settings that are free of samplers has the bits of "
+                      "the C++ execution in float (settings that differ{})",
+                      bits.checked, bits.first.empty() ? "" : "; first: " + bits.first)},
+         {"bound", 0},
+         {"measured", bits.different},
+         {"pass", bits.different == 0}});
+  for (const auto& [key, share] : shares_)
+    row("stability",
+        {{"kernel", key.first},
+         {"case", key.second},
+         {"device", device()},
+         {"promise", fmt::format("{} (the largest share of the bound that was used: {})", share.promise, share.worst)},
+         {"bound", 1},
+         {"measured", share.most},
+         {"pass", share.most <= 1}});
 }
 
 }  // namespace luxel::report

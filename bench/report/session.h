@@ -1,4 +1,5 @@
-// Measuring on one device, in the child process: rows handed to the parent, times with their guard, errors with their oracle.
+// Measuring on one device, in the child process: rows handed to the parent, times with their guard, errors with their
+// oracle.
 #pragma once
 #include <functional>
 #include <map>
@@ -52,16 +53,19 @@ class Session {
   void note(const std::string& list, Json entry);
   void progress(std::size_t done, std::size_t of, const std::string& label);
 
-  /// Runs jobs in order. A job that fails becomes a problem of the device, and unless the code is `unsupported` (a device
-  /// may lack a feature) a broken promise.
+  /// Runs jobs in order. A job that fails becomes a problem of the device, and unless the code is `unsupported` (a
+  /// device may lack a feature) a broken promise.
   void run(const std::vector<Job>& jobs);
 
   /// Milliseconds of one run, warm, several runs a sample where one is short. Taken again while the machine is busy;
-  /// flagged in the report where that did not help. `label` names it there. The first run's time is kept in `first_use`.
+  /// flagged in the report where that did not help. `label` names it there. The first run's time is kept in
+  /// `first_use`.
   Result<Sample> time(cases::Run& run, const std::string& label);
   /// a and b in turn: a, b, a, b ... Each returns the milliseconds of one run.
   using Timed = std::function<Result<double>()>;
-  struct Pair { std::vector<double> a, b; };
+  struct Pair {
+    std::vector<double> a, b;
+  };
   Result<Pair> interleave(const Timed& a, const Timed& b, const std::string& label);
 
   /// The oracle of a setting, computed once in a report and shared by its devices through a file.
@@ -70,8 +74,11 @@ class Session {
   /// True the first time that it is asked with this text.
   bool first_time(const std::string& what) { return seen_.insert(what).second; }
 
-  /// Counts, for the promise that holds for the whole grid: results whose bits had to equal those of C++ float.
+  /// Promises that hold for the whole grid, each a stability row at the end: how many results differ in any bit from
+  /// those of C++ float, and the largest share of a bound that was used up.
   void promise_bits(const std::string& kernel, bool equal, const std::string& label);
+  void promise_share(const std::string& kernel, const std::string& name, const std::string& promise, double share,
+                     const std::string& label);
   void emit_promises();
 
  private:
@@ -87,8 +94,16 @@ class Session {
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, Oracle> oracles_;
   std::set<std::string> seen_;
-  struct Bits { double checked = 0, different = 0; std::string first; };
+  struct Bits {
+    double checked = 0, different = 0;
+    std::string first;
+  };
   std::map<std::string, Bits> bits_;
+  struct Share {
+    std::string promise, worst;
+    double most = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Share> shares_;
 };
 
 }  // namespace luxel::report

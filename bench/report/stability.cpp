@@ -9,8 +9,12 @@ std::vector<Job> stability_jobs(Session& session, const std::vector<cases::Case>
     jobs.push_back({c.kernel + " case " + c.name, [&session, c]() -> Status {
                       const Result<double> measured = c.measure(session.context());
                       if (!measured) return measured.status();
-                      session.row("stability", {{"kernel", c.kernel}, {"case", c.name}, {"device", session.device()},
-                                                {"promise", c.promise}, {"bound", c.bound}, {"measured", measured.value()},
+                      session.row("stability", {{"kernel", c.kernel},
+                                                {"case", c.name},
+                                                {"device", session.device()},
+                                                {"promise", c.promise},
+                                                {"bound", c.bound},
+                                                {"measured", measured.value()},
                                                 {"pass", cases::kept(c, measured.value())}});
                       return {};
                     }});

@@ -13,7 +13,9 @@ namespace {
 
 std::string number(const Json& v) { return v.is_number() ? fmt::format("{:.3g}", v.get<double>()) : "-"; }
 
-std::string text(const Json& v) { return v.is_string() ? v.get<std::string>() : v.is_number() ? fmt::format("{:.4g}", v.get<double>()) : v.dump(); }
+std::string text(const Json& v) {
+  return v.is_string() ? v.get<std::string>() : v.is_number() ? fmt::format("{:.4g}", v.get<double>()) : v.dump();
+}
 
 // "sigma 4 k 3 radius 12"
 std::string knobs_text(const Json& knobs) {
@@ -35,11 +37,13 @@ std::string options_text(const Json& options) {
   return all.empty() ? all : all.substr(1);
 }
 
-const Json* limit(const Json& report, const std::string& device, const std::string& what, const std::string& size, double bytes_per_pixel) {
+const Json* limit(const Json& report, const std::string& device, const std::string& what, const std::string& size,
+                  double bytes_per_pixel) {
   for (const Json& d : report["devices"]) {
     if (d["id"] != device) continue;
     for (const Json& l : d["limits"])
-      if (l["what"] == what && (size.empty() || (l["size"] == size && l["bytes_per_pixel"] == bytes_per_pixel))) return &l;
+      if (l["what"] == what && (size.empty() || (l["size"] == size && l["bytes_per_pixel"] == bytes_per_pixel)))
+        return &l;
   }
   return nullptr;
 }
@@ -66,21 +70,30 @@ void print_frontier(const Json& report) {
     if (row["on_frontier"] == true && !row["knobs"].contains("level")) kernels[row["kernel"]].push_back(&row);
   for (const auto& [kernel, rows] : kernels) {
     const std::string view = main_view(rows);
-    fmt::print("\n{} on {}\nsettings that no other beats in both error and time (copy%: of the GB/s of a copy of this size on this device)\n", kernel, view);
+    fmt::print(
+        "\n{} on {}\nsettings that no other beats in both error and time (copy%: of the GB/s of a copy of this size on "
+        "this device)\n",
+        kernel, view);
     std::map<std::string, std::vector<const Json*>> devices;
     for (const Json* r : rows)
-      if (view == text((*r)["scene"]) + ", " + text((*r)["size"]) + ": " + text((*r)["error"]["metric"])) devices[(*r)["device"]].push_back(r);
-    for (const auto& [device, shown] : devices) {
-      fmt::print("{}\n  {:<12} {:<22} {:<30} {:>10} {:>9} {:>6} {:>6}\n", device, "variant", "options", "knobs", "error", "ms", "copy%", "arith%");
+      if (view == text((*r)["scene"]) + ", " + text((*r)["size"]) + ": " + text((*r)["error"]["metric"]))
+        devices[(*r)["device"]].push_back(r);
+    for (const auto& [id, shown] : devices) {
+      const std::string& device = id;
+      fmt::print("{}\n  {:<12} {:<22} {:<30} {:>10} {:>9} {:>6} {:>6}\n", device, "variant", "options", "knobs",
+                 "error", "ms", "copy%", "arith%");
       for (const Json* row : shown) {
         const Json& r = *row;
         const double ms = total_time(r).median;
         const auto share = [&](const char* what, const std::string& size, const Json& work) {
           const Json* l = limit(report, device, what, size, bytes_per_pixel(r));
-          return l && work.is_number() && ms > 0 ? fmt::format("{:.0f}", 100 * work.get<double>() / ms * 1e-6 / (*l)["rate"].get<double>()) : "-";
+          return l && work.is_number() && ms > 0
+                     ? fmt::format("{:.0f}", 100 * work.get<double>() / ms * 1e-6 / (*l)["rate"].get<double>())
+                     : "-";
         };
-        fmt::print("  {:<12} {:<22.22} {:<30.30} {:>10.3g} {:>9.4g} {:>6} {:>6}\n", text(r["variant"]), options_text(r["options"]),
-                   knobs_text(r["knobs"]), total_error(r), ms, share("copy", r["size"], r["bytes"]), share("arithmetic", "", r["flops"]));
+        fmt::print("  {:<12} {:<22.22} {:<30.30} {:>10.3g} {:>9.4g} {:>6} {:>6}\n", text(r["variant"]),
+                   options_text(r["options"]), knobs_text(r["knobs"]), total_error(r), ms,
+                   share("copy", r["size"], r["bytes"]), share("arithmetic", "", r["flops"]));
       }
     }
   }
@@ -91,7 +104,8 @@ void print_levels(const Json& report) {
   std::map<std::string, std::map<int, double>> lines;
   for (const Json& row : report["frontier"])
     if (row["knobs"].contains("level"))
-      lines[fmt::format("{:<40.40} {:<10} {}", text(row["device"]), options_text(row["options"]), text(row["size"]))][row["knobs"]["level"]] = total_error(row);
+      lines[fmt::format("{:<40.40} {:<10} {}", text(row["device"]), options_text(row["options"]), text(row["size"]))]
+           [row["knobs"]["level"]] = total_error(row);
   if (lines.empty()) return;
   fmt::print("\nmip_build isotropic: |mean drift| of each level, in steps of the format\n");
   for (const auto& [line, levels] : lines) {
@@ -103,20 +117,23 @@ void print_levels(const Json& report) {
 
 void print_peers(const Json& report) {
   if (report["peers"].empty()) return;
-  fmt::print("\npeers, in turn with ours (ratio: their time over ours)\n{:<50} {:<24} {:<26} {:>8} {:>8} {:>7} {:>14} {:>6}\n", "peer", "device",
-             "what", "ours ms", "peer ms", "ratio", "q1..q3", "goal");
+  fmt::print(
+      "\npeers, in turn with ours (ratio: their time over ours)\n{:<50} {:<24} {:<26} {:>8} {:>8} {:>7} {:>14} {:>6}\n",
+      "peer", "device", "what", "ours ms", "peer ms", "ratio", "q1..q3", "goal");
   for (const Json& r : report["peers"])
-    fmt::print("{:<50.50} {:<24.24} {:<26.26} {:>8.3g} {:>8.3g} {:>7.3g} {:>14} {:>6}\n", text(r["peer"]), text(r["device"]),
-               fmt::format("{} {}", options_text(r["options"]), text(r["size"])), r["own_ms"]["median"].get<double>(),
-               r["time_ms"]["median"].get<double>(), r["ratio"].get<double>(), fmt::format("{}..{}", number(r["q1"]), number(r["q3"])),
-               r["goal"].is_null() ? "-" : fmt::format("{}{}", number(r["goal"]), r["ratio"] >= r["goal"] ? "" : " no"));
+    fmt::print(
+        "{:<50.50} {:<24.24} {:<26.26} {:>8.3g} {:>8.3g} {:>7.3g} {:>14} {:>6}\n", text(r["peer"]), text(r["device"]),
+        fmt::format("{} {}", options_text(r["options"]), text(r["size"])), r["own_ms"]["median"].get<double>(),
+        r["time_ms"]["median"].get<double>(), r["ratio"].get<double>(),
+        fmt::format("{}..{}", number(r["q1"]), number(r["q3"])),
+        r["goal"].is_null() ? "-" : fmt::format("{}{}", number(r["goal"]), r["ratio"] >= r["goal"] ? "" : " no"));
 }
 
 void print_limits(const Json& report) {
   fmt::print("\nlimits measured in this run\n");
   const auto line = [](const std::string& where, const Json& l) {
-    fmt::print("{:<40.40} {:<12} {:>10} {:>3} bytes/pixel {:>8.3g} {:<8} {}\n", where, text(l["what"]), text(l["size"]), number(l["bytes_per_pixel"]),
-               l["rate"].get<double>(), text(l["unit"]), text(l["form"]));
+    fmt::print("{:<40.40} {:<12} {:>10} {:>3} bytes/pixel {:>8.3g} {:<8} {}\n", where, text(l["what"]), text(l["size"]),
+               number(l["bytes_per_pixel"]), l["rate"].get<double>(), text(l["unit"]), text(l["form"]));
   };
   for (const Json& l : report["machine"]["limits"]) line("machine", l);
   for (const Json& d : report["devices"])
@@ -131,11 +148,12 @@ void print_stability(const Json& report) {
     if (r["pass"] == true) ++kept;
   }
   fmt::print("\npromises\n");
-  for (const auto& [key, count] : counts) fmt::print("{:<16} {:<50.50} {} of {} kept\n", key.first, key.second, count.first, count.second);
+  for (const auto& [key, count] : counts)
+    fmt::print("{:<16} {:<50.50} {} of {} kept\n", key.first, key.second, count.first, count.second);
   for (const Json& r : report["stability"])
     if (r["pass"] != true)
-      fmt::print("BROKEN {} on {}: {}: {}; measured {}, bound {}\n", text(r["kernel"]), text(r["device"]), text(r["case"]), text(r["promise"]),
-                 number(r["measured"]), number(r["bound"]));
+      fmt::print("BROKEN {} on {}: {}: {}; measured {}, bound {}\n", text(r["kernel"]), text(r["device"]),
+                 text(r["case"]), text(r["promise"]), number(r["measured"]), number(r["bound"]));
   for (const Json& d : report["devices"])
     for (const Json& p : d["problems"]) fmt::print("{}: {}\n", text(d["id"]), text(p));
 }
@@ -149,8 +167,11 @@ void print_tables(const Json& report, const std::string& out) {
   print_limits(report);
   print_stability(report);
   const std::size_t flagged = report["machine"]["guard"]["flagged"].size();
-  if (flagged > 0) fmt::print("\n{} rows were taken while the machine was busy, again and again; machine.guard.flagged names them\n", flagged);
-  fmt::print("\n{} frontier rows, {} promises; {}/report.json, {}/index.html\n", report["frontier"].size(), report["stability"].size(), out, out);
+  if (flagged > 0)
+    fmt::print("\n{} rows were taken while the machine was busy, again and again; machine.guard.flagged names them\n",
+               flagged);
+  fmt::print("\n{} frontier rows, {} promises; {}/report.json, {}/index.html\n", report["frontier"].size(),
+             report["stability"].size(), out, out);
 }
 
 }  // namespace luxel::report

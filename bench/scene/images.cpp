@@ -28,24 +28,28 @@ std::vector<double> impulse(int width, int height, int channels, int x, int y) {
 
 std::vector<double> step_edge(int width, int height, int channels, int x) {
   std::vector<double> values(static_cast<std::size_t>(width) * height * channels);
-  for (std::size_t i = 0; i < values.size(); ++i)
-    values[i] = static_cast<int>(i / channels % width) >= x ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<int>(i / channels % width) >= x ? 1.0 : 0.0;
   return values;
 }
 
 namespace {
 
-struct Rgb { double r, g, b; };
+struct Rgb {
+  double r, g, b;
+};
 
-Rgb shade(double u, double v) {  // u, v in 0..1, v downwards
+Rgb shade(double u, double v) {                          // u, v in 0..1, v downwards
   Rgb c{0.25 + 0.35 * v, 0.4 + 0.3 * v, 0.9 - 0.2 * v};  // sky
   const double du = (u - 0.73) * 1.78, dv = v - 0.2;
   const double sun = du * du + dv * dv;
-  if (sun < 0.0009) c = {2000, 1700, 1200};
-  else c = {c.r + 0.004 / sun * 0.02, c.g + 0.003 / sun * 0.02, c.b + 0.002 / sun * 0.02};
+  if (sun < 0.0009)
+    c = {2000, 1700, 1200};
+  else
+    c = {c.r + 0.004 / sun * 0.02, c.g + 0.003 / sun * 0.02, c.b + 0.002 / sun * 0.02};
   if (v > 0.6) {  // floor in perspective
     const double depth = 0.1 / (v - 0.59);
-    const int tile = static_cast<int>(std::floor((u - 0.5) * depth * 12 + 100)) + static_cast<int>(std::floor(depth * 6));
+    const int tile =
+        static_cast<int>(std::floor((u - 0.5) * depth * 12 + 100)) + static_cast<int>(std::floor(depth * 6));
     c = tile % 2 == 0 ? Rgb{0.05, 0.04, 0.04} : Rgb{0.7, 0.65, 0.55};
   }
   for (int i = 0; i < 12; ++i) {  // thin bars, ever finer

@@ -5,7 +5,8 @@
 
 namespace luxel::scene {
 
-/// PCG hash (O'Neill; Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 2020): equal numbers on every compiler.
+/// PCG hash (O'Neill; Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 2020): equal numbers on every
+/// compiler.
 std::uint32_t hash(std::uint32_t v);
 
 /// Uniform in [0, 1), multiples of 2^-24, so that f32 holds them.

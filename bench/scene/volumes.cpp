@@ -20,7 +20,8 @@ Rgba room(double x, double y, double z, double cell) {
   if (x >= 0.25 + cell && x < 0.25 + 2 * cell) return {0.05, 0.6, 0.05, 1};
   if (in_ball(x, y, z, 0.6, 0.25, 0.4, 0.2)) return {0.1, 0.2, 0.7, 1};
   if (in_ball(x, y, z, 0.7, 0.5, 0.75, 0.18)) return {0.06, 0.075, 0.08, 0.1};
-  if (std::fabs(x - 0.6) < 0.1 && std::fabs(z - 0.5) < 0.1 && y > 0.9 && y < 0.95) return {0.03, 0.025, 0.02, 0};  // dim: it adds up along a ray
+  if (std::fabs(x - 0.6) < 0.1 && std::fabs(z - 0.5) < 0.1 && y > 0.9 && y < 0.95)
+    return {0.03, 0.025, 0.02, 0};  // dim: it adds up along a ray
   return {0, 0, 0, 0};
 }
 
@@ -44,12 +45,13 @@ std::vector<double> depth_map(int width, int height) {
     for (int column = 0; column < width; ++column) {
       const double u = ((column + 0.5) / width - 0.5) * 2 * width / height, v = 1 - 2 * (row + 0.5) / height;
       double depth = 1000;
-      if (v < 0) depth = std::min(depth, 1.5 / -v);                      // floor
-      if (v > 0.1) depth = std::min(depth, 6.0 / (v - 0.05));            // ceiling
-      for (int i = 1; i <= 12; ++i)                                      // two rows of pillars
+      if (v < 0) depth = std::min(depth, 1.5 / -v);            // floor
+      if (v > 0.1) depth = std::min(depth, 6.0 / (v - 0.05));  // ceiling
+      for (int i = 1; i <= 12; ++i)                            // two rows of pillars
         for (const double side : {-3.0, 3.0}) {
           const double z = 4.0 * i;
-          if (std::fabs(u - side / z) < 0.4 / z) depth = std::min(depth, z - std::sqrt(std::max(0.0, 0.16 - (u * z - side) * (u * z - side))));
+          if (std::fabs(u - side / z) < 0.4 / z)
+            depth = std::min(depth, z - std::sqrt(std::max(0.0, 0.16 - (u * z - side) * (u * z - side))));
         }
       const double bx = u * 5 - 0.5, by = v * 5 + 0.6, ball = 0.8 - bx * bx - by * by;
       if (ball > 0) depth = std::min(depth, 5 - std::sqrt(ball));

@@ -31,7 +31,8 @@ std::vector<double> weights_of(double sigma, int radius) {
 }
 
 // One axis. A line has `n` cells of `width` values each, `step` values from cell to cell; out(i) = sum w in / sum w.
-void blur_line(const double* in, double* out, long n, long width, long step, const std::vector<double>& w, Border border) {
+void blur_line(const double* in, double* out, long n, long width, long step, const std::vector<double>& w,
+               Border border) {
   const long radius = static_cast<long>(w.size()) - 1;
   for (long i = 0; i < n; ++i) {
     double* to = out + i * step;
@@ -53,16 +54,15 @@ template <class Work>
 void on_threads(long count, const Work& work) {
   const long threads = std::max(1L, std::min(count, static_cast<long>(std::thread::hardware_concurrency())));
   std::vector<std::jthread> others;
-  for (long i = 0; i < threads; ++i)
-    others.emplace_back([=] { work(count * i / threads, count * (i + 1) / threads); });
+  for (long i = 0; i < threads; ++i) others.emplace_back([=] { work(count * i / threads, count * (i + 1) / threads); });
 }
 
 }  // namespace
 
 int full_radius(double sigma) { return static_cast<int>(std::ceil(8.3 * sigma)); }
 
-std::vector<double> gaussian(std::span<const double> src, int width, int height, int channels, double sigma, Border border,
-                             int radius) {
+std::vector<double> gaussian(std::span<const double> src, int width, int height, int channels, double sigma,
+                             Border border, int radius) {
   const std::vector<double> w = weights_of(sigma, radius >= 0 ? radius : full_radius(sigma));
   const long row = static_cast<long>(width) * channels;
   std::vector<double> middle(src.size()), out(src.size());
@@ -74,7 +74,8 @@ std::vector<double> gaussian(std::span<const double> src, int width, int height,
   constexpr long strip = 64;
   on_threads((row + strip - 1) / strip, [&](long first, long last) {
     for (long s = first; s < last; ++s)
-      blur_line(middle.data() + s * strip, out.data() + s * strip, height, std::min(strip, row - s * strip), row, w, border);
+      blur_line(middle.data() + s * strip, out.data() + s * strip, height, std::min(strip, row - s * strip), row, w,
+                border);
   });
   return out;
 }

@@ -13,7 +13,7 @@ int full_radius(double sigma);
 
 /// The image blurred: `src` has width * height * channels values, interleaved. A Gaussian is separable, and so are the
 /// four borders, so two passes of 2 radius + 1 taps are exact. `radius` -1: full_radius(sigma).
-std::vector<double> gaussian(std::span<const double> src, int width, int height, int channels, double sigma, Border border,
-                             int radius = -1);
+std::vector<double> gaussian(std::span<const double> src, int width, int height, int channels, double sigma,
+                             Border border, int radius = -1);
 
 }  // namespace luxel::truth

@@ -1,4 +1,5 @@
 """One HTML file that needs nothing beside it: tables, plots as SVG, pictures as data URIs."""
+
 import base64
 import html
 
@@ -6,32 +7,49 @@ import rows
 from rows import number
 
 STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 1280px; padding: 1rem 1.5rem 4rem; color: #222; background: #fff }
-h1 { font-size: 1.6rem } h2 { margin-top: 2.5rem; border-bottom: 1px solid #ddd } h3 { margin-top: 1.6rem }
-table { border-collapse: collapse; font-size: 13px; margin: .5rem 0 } th, td { padding: .2rem .6rem; text-align: left; border-bottom: 1px solid #eee; vertical-align: top }
-th { background: #f6f6f6; position: sticky; top: 0 } td.n, th.n { text-align: right; font-variant-numeric: tabular-nums }
-tr.bad td { background: #fde8e8 } .note { color: #555; max-width: 60rem }
+body { font: 15px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 1280px; padding: 1rem 1.5rem 4rem;
+  color: #222; background: #fff }
+h1 { font-size: 1.6rem }
+h2 { margin-top: 2.5rem; border-bottom: 1px solid #ddd }
+h3 { margin-top: 1.6rem }
+table { border-collapse: collapse; font-size: 13px; margin: .5rem 0 }
+th, td { padding: .2rem .6rem; text-align: left; border-bottom: 1px solid #eee; vertical-align: top }
+th { background: #f6f6f6; position: sticky; top: 0 }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums }
+tr.bad td { background: #fde8e8 }
+.note { color: #555; max-width: 60rem }
 .wide { overflow-x: auto } .wide svg { max-width: 100%; height: auto }
-.pictures { display: flex; flex-wrap: wrap; gap: 1rem } figure { margin: 0; max-width: 384px } figure img { width: 100%; image-rendering: auto }
-figcaption { font-size: 12px; color: #555 } summary { cursor: pointer; margin: .4rem 0 } nav a { margin-right: 1rem }
-#tip { position: fixed; display: none; background: #222; color: #fff; font-size: 12px; padding: .3rem .5rem; border-radius: 4px; white-space: pre; pointer-events: none; z-index: 9 }
+.pictures { display: flex; flex-wrap: wrap; gap: 1rem }
+figure { margin: 0; max-width: 384px }
+figure img { width: 100%; image-rendering: auto }
+figcaption { font-size: 12px; color: #555 }
+summary { cursor: pointer; margin: .4rem 0 }
+nav a { margin-right: 1rem }
+#tip { position: fixed; display: none; background: #222; color: #fff; font-size: 12px;
+  padding: .3rem .5rem; border-radius: 4px; white-space: pre; pointer-events: none; z-index: 9 }
 """
 SCRIPT = """
 const tip = document.getElementById('tip');
 for (const point of document.querySelectorAll('g[id^=point]')) {
   const title = point.querySelector('title'), text = title.textContent;
-  point.addEventListener('mousemove', e => { title.textContent = ''; tip.textContent = text; tip.style.display = 'block';
-    tip.style.left = Math.min(e.clientX + 12, innerWidth - tip.offsetWidth - 8) + 'px'; tip.style.top = e.clientY + 12 + 'px'; });
+  point.addEventListener('mousemove', e => {
+    title.textContent = ''; tip.textContent = text; tip.style.display = 'block';
+    tip.style.left = Math.min(e.clientX + 12, innerWidth - tip.offsetWidth - 8) + 'px';
+    tip.style.top = e.clientY + 12 + 'px';
+  });
   point.addEventListener('mouseleave', () => { title.textContent = text; tip.style.display = 'none'; });
 }
 """
 METRICS = {
-    "max |x - t| / max |input|": "The largest difference of any channel of any pixel from the truth, over the largest value of the input. "
-                                 "The truth is a convolution in double with the whole kernel (what is cut off sums to less than 1e-16), at the same border.",
-    "max |x - t| / max |input|, all levels": "The largest difference of any channel of any texel of any level (and direction) from the truth, over the "
-                                             "largest value of level 0. The truth is the same reduction in double, from level 0 on, never from a rounded level.",
-    "half L1 of the impulse response's error": "The share of the filter's weight that lies in the wrong place: half the sum of "
-                                               "|response - true response| to a single pixel of 1.",
+    "max |x - t| / max |input|": "The largest difference of any channel of any pixel from the truth, over the largest "
+    "value of the input. The truth is a convolution in double with the whole kernel (what is cut off sums to less than "
+    "1e-16), at the same border.",
+    "max |x - t| / max |input|, all levels": "The largest difference of any channel of any texel of any level (and "
+    "direction) from the truth, over the largest value of level 0. The truth is the same reduction in double, from "
+    "level 0 on, never from a rounded level.",
+    "half L1 of the impulse response's error": "The share of the filter's weight that lies in the wrong place: half "
+    "the "
+    "sum of |response - true response| to a single pixel of 1.",
 }
 
 
@@ -60,12 +78,44 @@ def frontier_table(report, points):
     def cells(row):
         gigabytes, of_copy, gigaflops, of_arithmetic = rows.achieved(report, row)
         parts = [number(row["error"][part]) for part in rows.PARTS]
-        return [row["variant"], rows.options(row), rows.knobs(row), row["scene"], row["size"], number(rows.total_error(row)), *parts,
-                number(rows.total_time(row), 4), f'{number(rows.total_time(row, "q1"))}–{number(rows.total_time(row, "q3"))}',
-                number(gigabytes), percent(of_copy), number(gigaflops), percent(of_arithmetic),
-                number(None if row["memory_bytes"] is None else row["memory_bytes"] / 2**20), "yes" if row["on_frontier"] else ""]
-    head = ["variant", "options", "knobs", "scene", "size", "#error", "#rounding", "#storage", "#device", "#method", "#ms", "#quartiles",
-            "#GB/s", "#of copy", "#GFLOP/s", "#of peak", "#MiB", "frontier"]
+        return [
+            row["variant"],
+            rows.options(row),
+            rows.knobs(row),
+            row["scene"],
+            row["size"],
+            number(rows.total_error(row)),
+            *parts,
+            number(rows.total_time(row), 4),
+            f'{number(rows.total_time(row, "q1"))}–{number(rows.total_time(row, "q3"))}',
+            number(gigabytes),
+            percent(of_copy),
+            number(gigaflops),
+            percent(of_arithmetic),
+            number(None if row["memory_bytes"] is None else row["memory_bytes"] / 2**20),
+            "yes" if row["on_frontier"] else "",
+        ]
+
+    head = [
+        "variant",
+        "options",
+        "knobs",
+        "scene",
+        "size",
+        "#error",
+        "#rounding",
+        "#storage",
+        "#device",
+        "#method",
+        "#ms",
+        "#quartiles",
+        "#GB/s",
+        "#of copy",
+        "#GFLOP/s",
+        "#of peak",
+        "#MiB",
+        "frontier",
+    ]
     return table(head, [(row, cells(row)) for row in points])
 
 
@@ -75,10 +125,13 @@ def kernel_section(report, kernel, pictures, figures, folder):
     parts.append("<h3>Error against run time</h3>")
     for metric in dict.fromkeys(row["error"]["metric"] for row in points if "level" not in row["knobs"]):
         parts.append(f'<p class="note"><b>{esc(metric)}.</b> {esc(METRICS.get(metric, ""))}</p>')
-    parts.append('<p class="note">Error: the sum of its parts, no less than the whole. Rounding: float against double. Storage: '
-                 'rounding by the format of the result. Device: against C++ in float, 0 where the bits are equal. Method: double '
-                 'against the truth. A filled point is on the frontier: nothing is as exact and faster beyond the quartiles. '
-                 'The pointer on a point names its setting.</p>')
+    parts.append(
+        '<p class="note">Error: the sum of its parts, no less than the whole. Rounding: float against double. Storage: '
+        'rounding by the format of the result. Device: against C++ in float, 0 where the bits are equal. Method: '
+        'double '
+        'against the truth. A filled point is on the frontier: nothing is as exact and faster beyond the quartiles. '
+        'The pointer on a point names its setting.</p>'
+    )
     mine = [figure for figure in figures if figure[0] == kernel]
     for index, (_, scene, metric, count, svg) in enumerate(mine):
         drawing = f'<div class="wide">{svg}</div>'
@@ -88,8 +141,10 @@ def kernel_section(report, kernel, pictures, figures, folder):
         parts.append('<h3>Pictures</h3><div class="pictures">')
         for shot in shots:
             data = base64.b64encode((folder / shot["file"]).read_bytes()).decode()
-            parts.append(f'<figure><img alt="{esc(shot["caption"])}" src="data:image/png;base64,{data}">'
-                         f'<figcaption>{esc(shot["caption"])}</figcaption></figure>')
+            parts.append(
+                f'<figure><img alt="{esc(shot["caption"])}" src="data:image/png;base64,{data}">'
+                f'<figcaption>{esc(shot["caption"])}</figcaption></figure>'
+            )
         parts.append("</div>")
     parts.append("<h3>Settings</h3>")
     for device in dict.fromkeys(row["device"] for row in points):
@@ -109,10 +164,26 @@ def stability(report, kernel):
     for device in dict.fromkeys(row["device"] for row in mine):
         here = sorted((row for row in mine if row["device"] == device), key=lambda row: row["pass"])
         kept = sum(row["pass"] for row in here)
-        body = [(row, [row["case"], row["promise"], number(row["bound"]), number(row["measured"]), "kept" if row["pass"] else "BROKEN"])
-                for row in here]
-        parts.append(details(f"{device}: {kept} of {len(here)} kept",
-                             table(["case", "promise", "#bound", "#measured", ""], body, lambda row: not row["pass"]), kept < len(here)))
+        body = [
+            (
+                row,
+                [
+                    row["case"],
+                    row["promise"],
+                    number(row["bound"]),
+                    number(row["measured"]),
+                    "kept" if row["pass"] else "BROKEN",
+                ],
+            )
+            for row in here
+        ]
+        parts.append(
+            details(
+                f"{device}: {kept} of {len(here)} kept",
+                table(["case", "promise", "#bound", "#measured", ""], body, lambda row: not row["pass"]),
+                kept < len(here),
+            )
+        )
     return "\n".join(parts)
 
 
@@ -121,39 +192,123 @@ def peers(report, kernel):
     if not mine:
         return ""
     missed = lambda row: row["goal"] is not None and not (row["ratio"] is not None and row["ratio"] >= row["goal"])
-    body = [(row, [row["peer"], row["version"], row["device"], rows.options(row, True), row["size"], number(row["own_ms"] and row["own_ms"]["median"]),
-                   number(row["time_ms"] and row["time_ms"]["median"]), number(row["ratio"]), f'{number(row["q1"])}–{number(row["q3"])}',
-                   number(row["own_error"]), number(row["error"]), number(row["goal"]) + (" missed" if missed(row) else "")]) for row in mine]
-    return ("<h3>Peers</h3><p class=note>Taken in turn: ours, peer, ours, peer. Ratio: median of the peer's time over ours, pair by pair; "
-            "above 1 we are faster.</p>" + table(["peer", "version", "device", "options", "size", "#ours, ms", "#peer, ms", "#ratio", "#quartiles",
-                                                   "#our error", "#its error", "#goal"], body, missed))
+    body = [
+        (
+            row,
+            [
+                row["peer"],
+                row["version"],
+                row["device"],
+                rows.options(row, True),
+                row["size"],
+                number(row["own_ms"] and row["own_ms"]["median"]),
+                number(row["time_ms"] and row["time_ms"]["median"]),
+                number(row["ratio"]),
+                f'{number(row["q1"])}–{number(row["q3"])}',
+                number(row["own_error"]),
+                number(row["error"]),
+                number(row["goal"]) + (" missed" if missed(row) else ""),
+            ],
+        )
+        for row in mine
+    ]
+    return (
+        "<h3>Peers</h3><p class=note>Taken in turn: ours, peer, ours, peer. Ratio: median of the peer's time over "
+        "ours, pair by pair; "
+        "above 1 we are faster.</p>"
+        + table(
+            [
+                "peer",
+                "version",
+                "device",
+                "options",
+                "size",
+                "#ours, ms",
+                "#peer, ms",
+                "#ratio",
+                "#quartiles",
+                "#our error",
+                "#its error",
+                "#goal",
+            ],
+            body,
+            missed,
+        )
+    )
 
 
 def left_out(report, kernel):
     mine = [row for row in report["left_out"] if row["kernel"] == kernel]
     if not mine:
         return ""
-    body = [(row, [row["what"], row["level"], row["device"], row["scene"], number(row["saved_ms"]),
-                   number(None if row["saved_bytes"] is None else row["saved_bytes"] / 2**20), number(row["error"])]) for row in mine]
-    return ("<h3>Left out where it is not needed</h3><p class=note>Level 1: code and bindings, 2: work, 3: whole passes or kernels. "
-            "Bytes: traffic that is not moved.</p>" + table(["what", "#level", "device", "scene", "#saved ms", "#saved MiB", "#error"], body))
+    body = [
+        (
+            row,
+            [
+                row["what"],
+                row["level"],
+                row["device"],
+                row["scene"],
+                number(row["saved_ms"]),
+                number(None if row["saved_bytes"] is None else row["saved_bytes"] / 2**20),
+                number(row["error"]),
+            ],
+        )
+        for row in mine
+    ]
+    return (
+        "<h3>Left out where it is not needed</h3><p class=note>Level 1: code and bindings, 2: work, 3: whole passes "
+        "or kernels. "
+        "Bytes: traffic that is not moved.</p>"
+        + table(["what", "#level", "device", "scene", "#saved ms", "#saved MiB", "#error"], body)
+    )
 
 
 def reproduction(report):
     mine = report["reproduction"]
     if not mine:
         return ""
-    body = [(row, [row["claim"], row["source"], row["device"], number(row["source_value"]), number(row["measured"]),
-                   "–" if row["q1"] is None else f'{number(row["q1"])}–{number(row["q3"])}', row["verdict"], row["reason"]]) for row in mine]
-    return "<h2>Claims measured again</h2>" + table(["claim", "source", "device", "#claimed", "#measured", "#quartiles", "verdict", "reason"], body)
+    body = [
+        (
+            row,
+            [
+                row["claim"],
+                row["source"],
+                row["device"],
+                number(row["source_value"]),
+                number(row["measured"]),
+                "–" if row["q1"] is None else f'{number(row["q1"])}–{number(row["q3"])}',
+                row["verdict"],
+                row["reason"],
+            ],
+        )
+        for row in mine
+    ]
+    return "<h2>Claims measured again</h2>" + table(
+        ["claim", "source", "device", "#claimed", "#measured", "#quartiles", "verdict", "reason"], body
+    )
 
 
 def limits(report):
     machine = report["machine"]
     entries = [("machine", entry) for entry in machine.get("limits", [])]
     entries += [(device["id"], entry) for device in report["devices"] for entry in device["limits"]]
-    body = [(entry, [where, entry["what"], entry["size"], number(entry["bytes_per_pixel"]), number(entry["rate"]), entry["unit"],
-                     f'{number(entry["q1"])}–{number(entry["q3"])}', entry["form"]]) for where, entry in entries]
+    body = [
+        (
+            entry,
+            [
+                where,
+                entry["what"],
+                entry["size"],
+                number(entry["bytes_per_pixel"]),
+                number(entry["rate"]),
+                entry["unit"],
+                f'{number(entry["q1"])}–{number(entry["q3"])}',
+                entry["form"],
+            ],
+        )
+        for where, entry in entries
+    ]
     return table(["where", "what", "size", "#bytes/pixel", "#rate", "unit", "#quartiles", "form"], body)
 
 
@@ -162,8 +317,12 @@ def first_use(report):
     for device in report["devices"]:
         slowest = sorted(device["first_use"], key=lambda use: -(use["compile_ms"] + use["first_run_ms"]))[:25]
         body = [(use, [use["label"], number(use["compile_ms"]), number(use["first_run_ms"])]) for use in slowest]
-        parts.append(details(f'{device["id"]}: the slowest of {len(device["first_use"])} first uses',
-                             table(["setting", "#compile, ms", "#first run, ms"], body)))
+        parts.append(
+            details(
+                f'{device["id"]}: the slowest of {len(device["first_use"])} first uses',
+                table(["setting", "#compile, ms", "#first run, ms"], body),
+            )
+        )
     return "\n".join(parts)
 
 
@@ -172,25 +331,48 @@ def page(report, pictures, figures, folder):
     kernels = list(dict.fromkeys(row["kernel"] for row in report["frontier"]))
     broken = [row for row in report["stability"] if not row["pass"]]
     died = [device for device in report["devices"] if device["died"]]
-    parts = ["<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content='width=device-width'><title>luxel report</title>",
-             f"<style>{STYLE}</style><div id=tip></div><h1>luxel: error against run time</h1>",
-             f'<p class=note>{esc(machine["cpu"])}, {machine["cores"]} cores; {esc(machine["system"])}; luxel {esc(machine["luxel"])}, '
-             f'{esc(machine["compiler"])}; {esc(machine["taken"])}{"; quick report" if machine["quick"] else ""}.</p>',
-             f'<p><b>{len(report["frontier"])} settings measured, {len(report["stability"])} promises, '
-             + (f'{len(broken)} of them broken' if broken else "all kept") + "."
-             + "".join(f' {esc(device["id"])} died.' for device in died) + "</b></p>",
-             "<nav>" + "".join(f'<a href="#{esc(kernel)}">{esc(kernel)}</a>' for kernel in kernels) + '<a href="#machine">machine</a></nav>']
+    parts = [
+        "<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport "
+        "content='width=device-width'><title>luxel report</title>",
+        f"<style>{STYLE}</style><div id=tip></div><h1>luxel: error against run time</h1>",
+        f'<p class=note>{esc(machine["cpu"])}, {machine["cores"]} cores; {esc(machine["system"])}; luxel '
+        f'{esc(machine["luxel"])}, '
+        f'{esc(machine["compiler"])}; {esc(machine["taken"])}{"; quick report" if machine["quick"] else ""}.</p>',
+        f'<p><b>{len(report["frontier"])} settings measured, {len(report["stability"])} promises, '
+        + (f'{len(broken)} of them broken' if broken else "all kept")
+        + "."
+        + "".join(f' {esc(device["id"])} died.' for device in died)
+        + "</b></p>",
+        "<nav>"
+        + "".join(f'<a href="#{esc(kernel)}">{esc(kernel)}</a>' for kernel in kernels)
+        + '<a href="#machine">machine</a></nav>',
+    ]
     parts += [kernel_section(report, kernel, pictures, figures, folder) for kernel in kernels]
     parts.append(reproduction(report))
     parts.append('<h2 id="machine">Devices and limits</h2>')
-    parts.append(table(["device", "driver", "profile", "problems"],
-                       [(d, [d["id"], d["driver"], d["profile"], "; ".join(map(str, d["problems"]))]) for d in report["devices"]], lambda d: d["died"]))
-    parts.append(f'<p class=note>A loop of multiply-adds on two threads ran beside each row, at best at {number(guard["best_gflops"], 4)} GFLOP/s; '
-                 f'rows taken while it ran below {number(guard["threshold"])} of that were taken again. {len(guard["flagged"])} rows stayed so.</p>')
+    parts.append(
+        table(
+            ["device", "driver", "profile", "problems"],
+            [(d, [d["id"], d["driver"], d["profile"], "; ".join(map(str, d["problems"]))]) for d in report["devices"]],
+            lambda d: d["died"],
+        )
+    )
+    parts.append(
+        f'<p class=note>A loop of multiply-adds on two threads ran beside each row, at best at '
+        f'{number(guard["best_gflops"], 4)} GFLOP/s; '
+        f'rows taken while it ran below {number(guard["threshold"])} of that were taken again. '
+        f'{len(guard["flagged"])} rows stayed so.</p>'
+    )
     parts.append("".join(f"<p class=note>Skipped: {esc(line)}</p>" for line in machine.get("skipped", [])))
-    parts.append("<h3>Limits, measured in the same run</h3><p class=note>Copies and triad move each byte once in and once out. Arithmetic is a "
-                 "product and a sum, which stay apart as in every kernel here (contraction is off, so that all devices give the same bits).</p>")
+    parts.append(
+        "<h3>Limits, measured in the same run</h3><p class=note>Copies and triad move each byte once in and once "
+        "out. Arithmetic is a "
+        "product and a sum, which stay apart as in every kernel here (contraction is off, so that all devices give "
+        "the same bits).</p>"
+    )
     parts.append(details("all limits", limits(report)))
-    parts.append("<h3>First use</h3><p class=note>Compilation and first run, with empty caches.</p>" + first_use(report))
+    parts.append(
+        "<h3>First use</h3><p class=note>Compilation and first run, with empty caches.</p>" + first_use(report)
+    )
     parts.append(f"<script>{SCRIPT}</script></html>")
     return "\n".join(parts)

@@ -1,4 +1,5 @@
 """Error against run time, a panel a device; every point says its setting when the pointer is on it."""
+
 import html
 import io
 import re
@@ -11,9 +12,20 @@ import numpy as np
 
 import rows
 
-plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "luxel", "font.family": "sans-serif", "font.size": 9,
-                     "axes.grid": True, "grid.color": "#dddddd", "grid.linewidth": 0.6, "axes.axisbelow": True,
-                     "axes.spines.top": False, "axes.spines.right": False})
+plt.rcParams.update(
+    {
+        "svg.fonttype": "none",
+        "svg.hashsalt": "luxel",
+        "font.family": "sans-serif",
+        "font.size": 9,
+        "axes.grid": True,
+        "grid.color": "#dddddd",
+        "grid.linewidth": 0.6,
+        "axes.axisbelow": True,
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+    }
+)
 
 MARKERS = "osD^vPX*<>"
 FLOOR = 1e-9  # where errors of zero are drawn
@@ -24,8 +36,11 @@ def draw(report, folder):
     folder.mkdir(parents=True, exist_ok=True)
     figures = []
     for kernel in dict.fromkeys(row["kernel"] for row in report["frontier"]):
-        mine = [row for row in report["frontier"] if row["kernel"] == kernel and rows.total_time(row) > 0
-                and "level" not in row["knobs"]]
+        mine = [
+            row
+            for row in report["frontier"]
+            if row["kernel"] == kernel and rows.total_time(row) > 0 and "level" not in row["knobs"]
+        ]
         views = {}
         for row in mine:
             views.setdefault((row["scene"], row["size"], row["error"]["metric"]), []).append(row)
@@ -35,12 +50,22 @@ def draw(report, folder):
                 continue
             scene, size, metric = view
             figure = panels(points, devices, f"{kernel} on {scene}, {size}", metric)
-            figures.append((kernel, f"{scene}, {size}", metric, len(points), save(figure, points, folder / f"{kernel}_{index}")))
+            figures.append(
+                (kernel, f"{scene}, {size}", metric, len(points), save(figure, points, folder / f"{kernel}_{index}"))
+            )
         levels = [row for row in report["frontier"] if row["kernel"] == kernel and "level" in row["knobs"]]
         if levels:
             figure = level_panels(levels, kernel)
             metric = "|mean of x - t| in steps of the format"
-            figures.append((kernel, f"{levels[0]['scene']}, {levels[0]['size']}", metric, len(levels), save(figure, levels, folder / f"{kernel}_levels")))
+            figures.append(
+                (
+                    kernel,
+                    f"{levels[0]['scene']}, {levels[0]['size']}",
+                    metric,
+                    len(levels),
+                    save(figure, levels, folder / f"{kernel}_levels"),
+                )
+            )
     return figures
 
 
@@ -62,11 +87,16 @@ def level_panels(points, kernel):
         axis.set_yscale("log")
         axis.axhline(1 / 16, color="#aa3333", lw=1, ls="--")
         axis.set_title(device if len(device) < 46 else device[:44] + "…", fontsize=9)
-        axis.set_xlabel("level (dashed: 1/16 step, what half up would drift a level)")
+        axis.set_xlabel("level (dashed: bound for levels of 16³ texels or more)")
         for kind in formats:
-            mine = sorted((row["knobs"]["level"], max(rows.total_error(row), FLOOR), index) for index, row in enumerate(points)
-                          if row["device"] == device and row["options"]["format"] == kind)
-            axis.plot([level for level, _, _ in mine], [drift for _, drift, _ in mine], color=colours[kind], lw=1, label=kind)
+            mine = sorted(
+                (row["knobs"]["level"], max(rows.total_error(row), FLOOR), index)
+                for index, row in enumerate(points)
+                if row["device"] == device and row["options"]["format"] == kind
+            )
+            axis.plot(
+                [level for level, _, _ in mine], [drift for _, drift, _ in mine], color=colours[kind], lw=1, label=kind
+            )
             for level, drift, index in mine:
                 axis.plot([level], [drift], marker="o", ms=5, color=colours[kind], ls="", gid=f"point{index}")
     axes[0][0].set_ylabel("|mean drift|, steps of the format")
@@ -81,6 +111,20 @@ def colour_key(row):
     if "sigma" in row["knobs"]:
         return f"σ {rows.number(row['knobs']['sigma'])}"
     return row["options"].get("format", row["variant"])
+
+
+def receiver(row):
+    """What is asked for: rows with the same compare. Variants of a blur give the same, those of a pyramid do not."""
+    how = () if "sigma" in row["knobs"] else (row["variant"],)
+    return (
+        colour_key(row),
+        row["options"].get("format"),
+        row["options"].get("border"),
+        row["options"].get("sizes"),
+        row["options"].get("ratio"),
+        row["options"].get("samples"),
+        *how,
+    )
 
 
 def natural(text):
@@ -122,13 +166,23 @@ def panel(axis, numbered, colours, markers):
         time, error = rows.total_time(row), max(rows.total_error(row), FLOOR)
         colour = colours[colour_key(row)]
         on = row["on_frontier"]
-        axis.plot([rows.total_time(row, "q1"), rows.total_time(row, "q3")], [error, error], color=colour, lw=1, alpha=0.6)
-        axis.plot([time], [error], marker=markers[kind(row)], ms=6 if on else 4.5, mfc=colour if on else "none", mec=colour,
-                  ls="", gid=f"point{index}", zorder=3)
+        axis.plot(
+            [rows.total_time(row, "q1"), rows.total_time(row, "q3")], [error, error], color=colour, lw=1, alpha=0.6
+        )
+        axis.plot(
+            [time],
+            [error],
+            marker=markers[kind(row)],
+            ms=6 if on else 4.5,
+            mfc=colour if on else "none",
+            mec=colour,
+            ls="",
+            gid=f"point{index}",
+            zorder=3,
+        )
         if on:
-            frontiers.setdefault((colour_key(row), rows.options({"options": {k: v for k, v in row["options"].items()
-                                                                             if k in ("format", "border")}})), []).append((time, error))
-    for (key, _), points in frontiers.items():
+            frontiers.setdefault(receiver(row), []).append((time, error))
+    for (key, *_), points in frontiers.items():
         points.sort()
         axis.plot(*zip(*points), color=colours[key], lw=0.9, alpha=0.7, zorder=2)
 
@@ -141,9 +195,13 @@ def titled(figure, points):
 
     def title(match):
         row = points[int(match.group(1))]
-        parts = ", ".join(f"{part} {rows.number(row['error'][part])}" for part in rows.PARTS if row["error"][part] is not None)
-        label = (f"{rows.setting(row)}\n{rows.number(rows.total_time(row), 4)} ms, error {rows.number(rows.total_error(row))}"
-                 f"\n{parts}" + ("" if row["on_frontier"] else "\nnot on the frontier"))
+        parts = ", ".join(
+            f"{part} {rows.number(row['error'][part])}" for part in rows.PARTS if row["error"][part] is not None
+        )
+        label = (
+            f"{rows.setting(row)}\n{rows.number(rows.total_time(row), 4)} ms, error {rows.number(rows.total_error(row))}"
+            f"\n{parts}" + ("" if row["on_frontier"] else "\nnot on the frontier")
+        )
         return f'{match.group(0)}<title>{html.escape(label)}</title>'
 
     return re.sub(r'<g id="point(\d+)">', title, svg)

@@ -3,6 +3,7 @@
 
 usage: render.py DIR
 """
+
 import json
 import pathlib
 import sys
@@ -21,6 +22,7 @@ def main():
         print(f"{error.name} is missing (Debian: apt-get install python3-{error.name.split('.')[0]})", file=sys.stderr)
         return 3
     import page
+
     try:
         report = json.loads((folder / "report.json").read_text())
         pictures = folder / "pictures.json"

@@ -61,5 +61,9 @@ def achieved(report, row):
     rate = lambda work: work / ms * 1e-6 if work is not None else None
     share = lambda value, top: value / top if value is not None and top else None
     gigabytes, gigaflops = rate(row["bytes"]), rate(row["flops"])
-    return (gigabytes, share(gigabytes, limit(report, row["device"], "copy", row)),
-            gigaflops, share(gigaflops, limit(report, row["device"], "arithmetic")))
+    return (
+        gigabytes,
+        share(gigabytes, limit(report, row["device"], "copy", row)),
+        gigaflops,
+        share(gigaflops, limit(report, row["device"], "arithmetic")),
+    )

@@ -1,5 +1,5 @@
-// A promise about a kernel in an extreme or stiff case: what is promised, the bound, and how it is measured on a device.
-// The tests and `luxel report` run the same list.
+// A promise about a kernel in an extreme or stiff case: what is promised, the bound, and how it is measured on a
+// device. The tests and `luxel report` run the same list.
 #pragma once
 #include <functional>
 #include <string>
@@ -15,7 +15,7 @@ struct Case {
   std::string promise;  // a sentence
   double bound = 0;     // kept when the measured number is <= bound; NaN breaks it
   std::function<Result<double>(Context&)> measure = {};
-  bool slow = false;    // more than about a second on a software driver
+  bool slow = false;                                    // more than about a second on a software driver
   std::function<bool(const DeviceInfo&)> applies = {};  // empty: on every device
 };
 

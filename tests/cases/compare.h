@@ -1,4 +1,5 @@
-// Numbers that say how far two lists of values are apart. NaN and lists of different length give NaN, which keeps no bound.
+// Numbers that say how far two lists of values are apart. NaN and lists of different length give NaN, which keeps no
+// bound.
 #pragma once
 #include <cmath>
 #include <cstring>

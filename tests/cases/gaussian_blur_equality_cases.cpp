@@ -1,4 +1,5 @@
-// Results that must be equal to others: to the C++ execution, in place, image against buffer, variants among each other.
+// Results that must be equal to others: to the C++ execution, in place, image against buffer, variants among each
+// other.
 #include <fmt/format.h>
 
 #include "bench/scene/images.h"
@@ -11,8 +12,10 @@ namespace luxel::cases {
 namespace {
 
 Case equal_to_cpp(GaussianBlurParams p, std::string options) {
-  return {"", fmt::format("bits, {} {} {}{}", name(p.variant), name(p.format), name(p.border), options),
-          "the same bits as the C++ execution in float (values that differ)", 0,
+  return {"",
+          fmt::format("bits, {} {} {}{}", name(p.variant), name(p.format), name(p.border), options),
+          "the same bits as the C++ execution in float (values that differ)",
+          0,
           [=](Context& context) -> Result<double> {
             const Values src = quantise(scene::noise(p.width, p.height, channels(p.format), 10), p.format);
             const auto out = blur(context, p, src);
@@ -23,7 +26,8 @@ Case equal_to_cpp(GaussianBlurParams p, std::string options) {
             if (!expected) return expected.status();
             return count_different(out.value(), expected.value());
           },
-          false, not_double};
+          false,
+          not_double};
 }
 
 void add_equal_bits(std::vector<Case>& cases) {
@@ -31,7 +35,8 @@ void add_equal_bits(std::vector<Case>& cases) {
     for (const Border border : borders) {
       cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border), ""));
       cases.push_back(equal_to_cpp(blur_params(43, 29, 1.3, 4, format, border, GaussianVariant::direct), ""));
-      // A format and a border meet only in the loads and stores, so that a row and a column of the table nearly say it all.
+      // A format and a border meet only in the loads and stores, so that a row and a column of the table nearly say it
+      // all.
       cases.back().slow = (cases.end() - 2)->slow = format != Format::f32x4 && border != Border::clamp;
     }
   GaussianBlurParams p = blur_params(67, 43, 3.7, 12);
@@ -52,7 +57,8 @@ void add_equal_bits(std::vector<Case>& cases) {
 void add_in_place(std::vector<Case>& cases) {
   for (const Format format : pixel_formats)
     cases.push_back({"", fmt::format("in place, {}", name(format)),
-                     "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0, [=](Context& context) -> Result<double> {
+                     "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0,
+                     [=](Context& context) -> Result<double> {
                        const Values src = quantise(scene::noise(45, 37, channels(format), 11), format);
                        const GaussianBlurParams p = blur_params(45, 37, 2, 6, format);
                        const auto apart = blur(context, p, src);
@@ -90,8 +96,8 @@ void add_equality_cases(std::vector<Case>& cases) {
     GaussianBlurParams separable = direct;
     separable.variant = GaussianVariant::separable;
     // (2R+1)^2 = 169 terms, each rounded once more as it is added; they partly cancel.
-    cases.push_back(apart(fmt::format("direct against separable, {}", name(border)), "direct and separable agree to rounding",
-                          170 * 0x1p-24, direct, separable));
+    cases.push_back(apart(fmt::format("direct against separable, {}", name(border)),
+                          "direct and separable agree to rounding", 170 * 0x1p-24, direct, separable));
     cases.back().slow = border == Border::mirror || border == Border::wrap;
   }
   for (const Border border : {Border::clamp, Border::wrap})
@@ -99,7 +105,8 @@ void add_equality_cases(std::vector<Case>& cases) {
       const GaussianBlurParams sampler = blur_params(51, 33, 2, 6, format, border, GaussianVariant::sampler);
       const GaussianBlurParams separable = blur_params(51, 33, 2, 6, format, border);
       cases.push_back(apart(fmt::format("sampler against separable, {} {}", name(format), name(border)),
-                            "two texels a tap through the sampler: within the sampler's weights (2^-9 on each axis) and one storage step of separable",
+                            "two texels a tap through the sampler: within the sampler's weights (2^-9 on each axis) "
+                            "and one storage step of separable",
                             2 * 0x1p-9 + step(format, 0.5), sampler, separable));
       cases.back().slow = border == Border::wrap && format != Format::f32x4;
     }

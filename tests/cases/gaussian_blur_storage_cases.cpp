@@ -19,8 +19,8 @@ double sum(const Values& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 // f32 accumulation behind f16 and unorm8: the result is the truth rounded once.
 void add_single_rounding(std::vector<Case>& cases, Format format, double tolerance) {
   cases.push_back({"", fmt::format("{} accumulates in f32", name(format)),
-                   "a result is within half a storage step of the truth, and what f32 sums add (in storage steps)", 0.5 + tolerance,
-                   [=](Context& context) -> Result<double> {
+                   "a result is within half a storage step of the truth, and what f32 sums add (in storage steps)",
+                   0.5 + tolerance, [=](Context& context) -> Result<double> {
                      const Values src = quantise(scene::noise(61, 43, 4, 7), format);
                      const auto out = blur(context, blur_params(61, 43, 8, 24, format), src);
                      if (!out) return out.status();
@@ -49,7 +49,8 @@ void add_kept_sum(std::vector<Case>& cases, Format format, double bound, const c
 void add_keep_alpha(std::vector<Case>& cases) {
   for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4})
     cases.push_back({"", fmt::format("keep_alpha, {}", name(format)),
-                     "alpha is copied bit for bit and colour is as without it (values that differ)", 0, [=](Context& context) -> Result<double> {
+                     "alpha is copied bit for bit and colour is as without it (values that differ)", 0,
+                     [=](Context& context) -> Result<double> {
                        const Values src = quantise(scene::noise(33, 17, 4, 9), format);
                        GaussianBlurParams p = blur_params(33, 17, 2, 6, format);
                        const auto filtered = blur(context, p, src);
@@ -65,8 +66,8 @@ void add_keep_alpha(std::vector<Case>& cases) {
 }
 
 void add_dropped_taps(std::vector<Case>& cases) {
-  // Weights that sum to at most half a step are left out on each of two axes, the rest is scaled up by as much again; then
-  // each result is rounded by half a step.
+  // Weights that sum to at most half a step are left out on each of two axes, the rest is scaled up by as much again;
+  // then each result is rounded by half a step.
   for (const auto& [format, half] : {std::pair{Format::unorm8x4, 1.0 / 510}, {Format::f16x4, 0x1p-12}})
     cases.push_back({"", fmt::format("drop_taps, {}", name(format)),
                      "leaving out the outer taps moves a result by at most their weight on both axes and one rounding",
@@ -76,7 +77,8 @@ void add_dropped_taps(std::vector<Case>& cases) {
                        const auto all = blur(context, p, src);
                        if (!all) return all.status();
                        p.drop_taps = true;
-                       if (effective_radius(p) >= 24) return Status(Code::internal, "drop_taps dropped none of 24 taps");
+                       if (effective_radius(p) >= 24)
+                         return Status(Code::internal, "drop_taps dropped none of 24 taps");
                        const auto fewer = blur(context, p, src);
                        if (!fewer) return fewer.status();
                        return max_difference(all.value(), fewer.value());
@@ -86,13 +88,15 @@ void add_dropped_taps(std::vector<Case>& cases) {
 }  // namespace
 
 void add_storage_cases(std::vector<Case>& cases) {
-  // 24 taps of f32 rounding are 2.6e-6 of full scale: 0.01 steps of f16 at a half, where values of noise lie, 0.001 of unorm8.
+  // 24 taps of f32 rounding are 2.6e-6 of full scale: 0.01 steps of f16 at a half, where values of noise lie, 0.001 of
+  // unorm8.
   add_single_rounding(cases, Format::f16x4, 0.02);
   add_single_rounding(cases, Format::unorm8x4, 0.002);
   const double n = 128 * 64 * 4;
   add_kept_sum(cases, Format::f32x4, 1e-6, "with wrap the sum of all pixels is kept to 1e-6");
-  add_kept_sum(cases, Format::f16x4, 3 * 0x1p-11 / std::sqrt(n),
-               "with wrap the sum of all pixels is kept to three times 2^-11/sqrt(N): roundings of f16 are independent");
+  add_kept_sum(
+      cases, Format::f16x4, 3 * 0x1p-11 / std::sqrt(n),
+      "with wrap the sum of all pixels is kept to three times 2^-11/sqrt(N): roundings of f16 are independent");
   // A rounding of unorm8 is uniform in +-1/510: standard deviation 1/(255 sqrt 12); the mean of the noise is 1/2.
   add_kept_sum(cases, Format::unorm8x4, 3 * 2 / (255 * std::sqrt(12 * n)),
                "with wrap the sum of all pixels is kept to three standard deviations of rounding half to even");

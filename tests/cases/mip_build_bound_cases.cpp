@@ -16,7 +16,8 @@ namespace {
 constexpr int largest = 257;
 
 std::string text(const MipBuildParams& p) {
-  return fmt::format("{} {} {} ratio {}", name(p.variant), name(p.format), p.sizes == MipSizes::ceil ? "ceil" : "floor", p.ratio);
+  return fmt::format("{} {} {} ratio {}", name(p.variant), name(p.format), p.sizes == MipSizes::ceil ? "ceil" : "floor",
+                     p.ratio);
 }
 
 // Texels of level 0 outside the bounds of the texel that they are addressed to, over all levels.
@@ -25,7 +26,9 @@ double violations(const MipBuildParams& p, const Values& src, const Pyramid& pyr
   for (const auto& [name, bounds] : pyramid) {
     const int level = level_of(name), shift = p.ratio == 16 ? 4 : level;
     const auto e = mip_extent(p, level);
-    const auto address = [&](int at, int n) { return p.sizes == MipSizes::ceil ? at >> shift : std::min(at >> shift, n - 1); };
+    const auto address = [&](int at, int n) {
+      return p.sizes == MipSizes::ceil ? at >> shift : std::min(at >> shift, n - 1);
+    };
     for (int y = 0; y < p.height; ++y)
       for (int x = 0; x < p.width; ++x) {
         const double v = src[static_cast<std::size_t>(y) * p.width + x];
@@ -46,9 +49,13 @@ Result<double> violations_of_size(Context& context, MipBuildParams p, int width,
 }
 
 // Over sizes: every width of `widths` with every height of `heights`.
-Case over_sizes(const MipBuildParams& p, std::string sizes, std::vector<int> widths, std::vector<int> heights, bool slow) {
-  return {"", fmt::format("bounds, {}, {}", text(p), sizes), "every texel of level 0 lies within the bounds of its texel on every level (violations)",
-          0, [=](Context& context) -> Result<double> {
+Case over_sizes(const MipBuildParams& p, std::string sizes, std::vector<int> widths, std::vector<int> heights,
+                bool slow) {
+  return {"",
+          fmt::format("bounds, {}, {}", text(p), sizes),
+          "every texel of level 0 lies within the bounds of its texel on every level (violations)",
+          0,
+          [=](Context& context) -> Result<double> {
             double sum = 0;
             for (const int width : widths)
               for (const int height : heights) {
@@ -69,21 +76,25 @@ std::vector<int> all_sizes() {
 }
 
 void add_not_numbers(std::vector<Case>& cases, const MipBuildParams& p) {
-  cases.push_back({"", "NaN and infinity, " + text(p), "NaN counts as nothing unless there is nothing else; infinities count (values that differ from that)",
-                   0, [=](Context& context) -> Result<double> {
-                     Values src = mip_distances(static_cast<std::size_t>(p.width) * p.height, 42);
-                     for (std::size_t i = 0; i < src.size(); ++i) {
-                       const double kind = scene::random01(static_cast<std::uint32_t>(i), 43);
-                       if (kind < 0.4 || (i % p.width < 4 && i / p.width < 8)) src[i] = std::numeric_limits<double>::quiet_NaN();
-                       else if (kind < 0.45) src[i] = HUGE_VAL;
-                     }
-                     const auto levels = build(context, p, src);
-                     if (!levels) return levels.status();
-                     const auto truth = truth::pyramid(p, src);
-                     double different = 0;
-                     for (const auto& [name, v] : levels.value()) different += count_different(v, truth[level_of(name)].values);
-                     return different;
-                   }});
+  cases.push_back(
+      {"", "NaN and infinity, " + text(p),
+       "NaN counts as nothing unless there is nothing else; infinities count (values that differ from that)", 0,
+       [=](Context& context) -> Result<double> {
+         Values src = mip_distances(static_cast<std::size_t>(p.width) * p.height, 42);
+         for (std::size_t i = 0; i < src.size(); ++i) {
+           const double kind = scene::random01(static_cast<std::uint32_t>(i), 43);
+           if (kind < 0.4 || (i % p.width < 4 && i / p.width < 8))
+             src[i] = std::numeric_limits<double>::quiet_NaN();
+           else if (kind < 0.45)
+             src[i] = HUGE_VAL;
+         }
+         const auto levels = build(context, p, src);
+         if (!levels) return levels.status();
+         const auto truth = truth::pyramid(p, src);
+         double different = 0;
+         for (const auto& [name, v] : levels.value()) different += count_different(v, truth[level_of(name)].values);
+         return different;
+       }});
 }
 
 }  // namespace
@@ -100,9 +111,11 @@ void add_mip_bound_cases(std::vector<Case>& cases) {
         cases.push_back(over_sizes(p, "25 sizes", {1, 2, 33, 127, 257}, {1, 3, 16, 129, 255}, false));
       }
       p.format = Format::f32x2;
-      cases.push_back(over_sizes(p, "every width from 1 to 257 with heights 1, 32, 257", all_sizes(), {1, 32, 257}, true));
+      cases.push_back(
+          over_sizes(p, "every width from 1 to 257 with heights 1, 32, 257", all_sizes(), {1, 32, 257}, true));
       cases.push_back(over_sizes(p, "every width and height from 1 to 257", all_sizes(), all_sizes(), true));
-      // The devices give the bits of this one (other cases), and a launch and a wait for each of 66,048 sizes take minutes.
+      // The devices give the bits of this one (other cases), and a launch and a wait for each of 66,048 sizes take
+      // minutes.
       cases.back().applies = [](const DeviceInfo& device) { return device.id == "cpu:float"; };
     }
 }

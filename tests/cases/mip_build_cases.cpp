@@ -47,7 +47,8 @@ int direction_of(const std::string& name) {
   return -1;
 }
 
-Result<Pyramid> build(Context& context, const MipBuildParams& params, std::span<const double> level_0, bool single_pass) {
+Result<Pyramid> build(Context& context, const MipBuildParams& params, std::span<const double> level_0,
+                      bool single_pass) {
   Profile profile = context.profile();
   profile.workgroup_memory = single_pass;
   Result<Run> made = Run::make(context, plan(params, profile));
@@ -73,7 +74,10 @@ Values mip_colours(std::size_t texels, int channels, std::uint32_t seed) {
     for (int c = 0; c < channels; ++c) {
       const double v = scene::random01(n + 1 + c, seed);
       // Emission is dim, so that no sum in front of an opaque voxel saturates unorm8.
-      values[i * channels + c] = static_cast<float>(channels < 4 ? v : c == 3 ? a : kind < 0.05 ? 0.1 * v : 0.8 * a * v);
+      values[i * channels + c] = static_cast<float>(channels < 4  ? v
+                                                    : c == 3      ? a
+                                                    : kind < 0.05 ? 0.1 * v
+                                                                  : 0.8 * a * v);
     }
   }
   return values;
@@ -90,7 +94,8 @@ Values mip_input(const MipBuildParams& p, std::uint32_t seed) {
   const auto e = mip_extent(p, 0);
   const std::size_t texels = static_cast<std::size_t>(e[0]) * e[1] * e[2];
   const Format format = finest_format(p);
-  return quantise(p.variant >= MipVariant::min ? mip_distances(texels, seed) : mip_colours(texels, channels(format), seed), format);
+  return quantise(
+      p.variant >= MipVariant::min ? mip_distances(texels, seed) : mip_colours(texels, channels(format), seed), format);
 }
 
 std::vector<Case> mip_build_cases() {

@@ -30,9 +30,11 @@ int direction_of(const std::string& name);  // -1: none
 using Pyramid = std::map<std::string, Values>;
 
 /// Builds the levels on a device. `single_pass`: several levels a dispatch, where the form exists.
-Result<Pyramid> build(Context& context, const MipBuildParams& params, std::span<const double> level_0, bool single_pass = false);
+Result<Pyramid> build(Context& context, const MipBuildParams& params, std::span<const double> level_0,
+                      bool single_pass = false);
 
-/// Premultiplied colour of all kinds (empty, opaque, in between, emission without opacity); one or two channels: plain noise.
+/// Premultiplied colour of all kinds (empty, opaque, in between, emission without opacity); one or two channels: plain
+/// noise.
 Values mip_colours(std::size_t texels, int channels, std::uint32_t seed);
 
 /// Distances from 0.1 to 1000, their logarithms uniform.

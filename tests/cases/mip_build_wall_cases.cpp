@@ -1,5 +1,5 @@
-// The red-green wall (Crassin 2011): a red wall a voxel thick, a green one right behind it. Who looks at the red one should
-// see no green.
+// The red-green wall (Crassin 2011): a red wall a voxel thick, a green one right behind it. Who looks at the red one
+// should see no green.
 #include <algorithm>
 #include <cmath>
 
@@ -23,8 +23,8 @@ Values two_walls(int at) {
   return values;
 }
 
-// Green seen along +x through the first row of a level, in samples a voxel apart from `start` voxels on, interpolated along
-// x. A sample stands for `part` of its opacity's reference length.
+// Green seen along +x through the first row of a level, in samples a voxel apart from `start` voxels on, interpolated
+// along x. A sample stands for `part` of its opacity's reference length.
 double green_seen(const Values& level, int n, double start, double part) {
   double green = 0, opacity = 0;
   for (double at = start; at < n + 1; at += 1) {
@@ -63,33 +63,40 @@ Case wall(std::string name, std::string promise, double bound, MipVariant varian
 }  // namespace
 
 void add_mip_wall_cases(std::vector<Case>& cases) {
-  cases.push_back(wall("red-green wall, anisotropic, along the axis", "looking along the axis at voxel centres, nothing leaks (green seen)", 0,
-                       MipVariant::anisotropic,
-                       [](const Pyramid& p, int level, int n) { return green_seen(p.at(mip_level_name(level, 0)), n, 0.5, 1); }));
-  cases.push_back(wall("red-green wall, anisotropic, between centres", "between centres an opaque voxel mixes with an empty one: at most 25 % leak",
-                       0.25 + 1e-6, MipVariant::anisotropic, [](const Pyramid& p, int level, int n) {
-                         double most = 0;
-                         if (level == 4) return most;  // the red wall lies in the first voxel: who starts behind its centre is past it
-                         for (double start = 0.5; start < 1.5; start += 1.0 / 16)
-                           most = std::max(most, green_seen(p.at(mip_level_name(level, 0)), n, start, 1));
-                         return most;
-                       }));
+  cases.push_back(
+      wall("red-green wall, anisotropic, along the axis",
+           "looking along the axis at voxel centres, nothing leaks (green seen)", 0, MipVariant::anisotropic,
+           [](const Pyramid& p, int level, int n) { return green_seen(p.at(mip_level_name(level, 0)), n, 0.5, 1); }));
+  cases.push_back(
+      wall("red-green wall, anisotropic, between centres",
+           "between centres an opaque voxel mixes with an empty one: at most 25 % leak", 0.25 + 1e-6,
+           MipVariant::anisotropic, [](const Pyramid& p, int level, int n) {
+             double most = 0;
+             if (level == 4)
+               return most;  // the red wall lies in the first voxel: who starts behind its centre is past it
+             for (double start = 0.5; start < 1.5; start += 1.0 / 16)
+               most = std::max(most, green_seen(p.at(mip_level_name(level, 0)), n, start, 1));
+             return most;
+           }));
   // Off the axis the volumes are mixed by the squared cosines, and those across the normal see the wall's edge.
   for (const int degrees : {15, 30, 45, 60})
     cases.push_back(wall(fmt::format("red-green wall, anisotropic, {} degrees off the axis", degrees),
-                         "off the axis the volumes mix and the wall leaks: a number, at most half", 0.5, MipVariant::anisotropic,
-                         [=](const Pyramid& p, int level, int n) {
+                         "off the axis the volumes mix and the wall leaks: a number, at most half", 0.5,
+                         MipVariant::anisotropic, [=](const Pyramid& p, int level, int n) {
                            const double c = std::cos(degrees * 3.14159265358979 / 180);
                            const Values& px = p.at(mip_level_name(level, 0));
                            const Values& py = p.at(mip_level_name(level, 2));
                            Values mixed(static_cast<std::size_t>(n) * 4);
-                           for (std::size_t i = 0; i < mixed.size(); ++i) mixed[i] = c * c * px[i] + (1 - c * c) * py[i];
+                           for (std::size_t i = 0; i < mixed.size(); ++i)
+                             mixed[i] = c * c * px[i] + (1 - c * c) * py[i];
                            return green_seen(mixed, n, 0.5, 1 / c);
                          }));
   // Opacity of the isotropic pyramid belongs to a finest voxel: a sample a voxel of the level apart stands for 2^level.
-  cases.push_back(wall("red-green wall, isotropic", "the isotropic mean of both walls leaks by construction: a number, at most half", 0.5,
-                       MipVariant::isotropic,
-                       [](const Pyramid& p, int level, int n) { return green_seen(p.at(mip_level_name(level)), n, 0.5, std::ldexp(1.0, level)); }));
+  cases.push_back(wall("red-green wall, isotropic",
+                       "the isotropic mean of both walls leaks by construction: a number, at most half", 0.5,
+                       MipVariant::isotropic, [](const Pyramid& p, int level, int n) {
+                         return green_seen(p.at(mip_level_name(level)), n, 0.5, std::ldexp(1.0, level));
+                       }));
 }
 
 }  // namespace luxel::cases

@@ -34,8 +34,8 @@ std::size_t Run::index(std::string_view name) const {
 }
 
 std::size_t Run::size(std::size_t i) const {
-  return reference::resource_bytes(plan_.resources[i], context_->real64() ? reference::Precision::real64
-                                                                          : reference::Precision::real32);
+  return reference::resource_bytes(plan_.resources[i],
+                                   context_->real64() ? reference::Precision::real64 : reference::Precision::real32);
 }
 
 Status Run::write(std::string_view name, std::span<const double> values) {
@@ -47,7 +47,8 @@ Status Run::write(std::string_view name, std::span<const double> values) {
 
 Result<std::vector<std::byte>> Run::bytes(std::string_view name) {
   const std::size_t i = index(name);
-  if (i == memory_.size()) return Status(Code::invalid_argument, plan_.kernel + " has no resource " + std::string(name));
+  if (i == memory_.size())
+    return Status(Code::invalid_argument, plan_.kernel + " has no resource " + std::string(name));
   std::vector<std::byte> data(size(i));
   if (Status status = context_->download(*memory_[i], data.data(), data.size()); !status) return status;
   return data;

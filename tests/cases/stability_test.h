@@ -14,7 +14,9 @@ struct Where {
   Case what;
 };
 
-inline std::ostream& operator<<(std::ostream& out, const Where& where) { return out << where.device << ": " << where.what.name; }
+inline std::ostream& operator<<(std::ostream& out, const Where& where) {
+  return out << where.device << ": " << where.what.name;
+}
 
 inline std::vector<Where> everywhere(const std::vector<Case>& cases, bool slow) {
   std::vector<Where> all;
@@ -22,7 +24,8 @@ inline std::vector<Where> everywhere(const std::vector<Case>& cases, bool slow) 
   devices.push_back("cpu:double");
   for (const std::string& device : devices)
     for (const Case& c : cases)
-      if (c.slow == slow && !(device == "cpu:double" && c.applies && !c.applies({0, Api::cpu, "", "", "", "cpu:double"})))
+      if (c.slow == slow &&
+          !(device == "cpu:double" && c.applies && !c.applies({0, Api::cpu, "", "", "", "cpu:double"})))
         all.push_back({device, c});
   return all;
 }

@@ -9,8 +9,16 @@ namespace luxel::cases {
 namespace {
 
 using uint = unsigned int;
-uint floatBitsToUint(float v) { uint u; std::memcpy(&u, &v, 4); return u; }
-float uintBitsToFloat(uint u) { float v; std::memcpy(&v, &u, 4); return v; }
+uint floatBitsToUint(float v) {
+  uint u;
+  std::memcpy(&u, &v, 4);
+  return u;
+}
+float uintBitsToFloat(uint u) {
+  float v;
+  std::memcpy(&v, &u, 4);
+  return v;
+}
 #define FN inline
 #include "kernels/math/packing.h"
 #undef FN
@@ -40,7 +48,8 @@ enum class Channel { f32, f16, unorm8, u32 };
 
 Channel channel_of(Format format) {
   switch (format) {
-    case Format::f16x2: case Format::f16x4: return Channel::f16;
+    case Format::f16x2:
+    case Format::f16x4: return Channel::f16;
     case Format::unorm8x4: return Channel::unorm8;
     case Format::u32: return Channel::u32;
     default: return Channel::f32;
@@ -53,8 +62,10 @@ std::vector<std::byte> store(std::span<const double> values, Format format, bool
   const Channel channel = channel_of(format);
   if (channel == Channel::u32) return store_as<std::uint32_t>(values, [](double v) { return v; });
   if (real64) return store_as<double>(values, [](double v) { return v; });
-  if (channel == Channel::f16) return store_as<std::uint16_t>(values, [](double v) { return f16_bits(static_cast<float>(v)); });
-  if (channel == Channel::unorm8) return store_as<std::uint8_t>(values, [](double v) { return unorm8_bits(static_cast<float>(v)); });
+  if (channel == Channel::f16)
+    return store_as<std::uint16_t>(values, [](double v) { return f16_bits(static_cast<float>(v)); });
+  if (channel == Channel::unorm8)
+    return store_as<std::uint8_t>(values, [](double v) { return unorm8_bits(static_cast<float>(v)); });
   return store_as<float>(values, [](double v) { return v; });
 }
 

@@ -8,7 +8,8 @@
 
 namespace luxel::cases {
 
-/// Channel values as `format` stores them, `channels(format)` a pixel. `real64`: doubles, whatever the format (u32 stays).
+/// Channel values as `format` stores them, `channels(format)` a pixel. `real64`: doubles, whatever the format (u32
+/// stays).
 std::vector<std::byte> store(std::span<const double> values, Format format, bool real64);
 
 /// The channel values in `data`, as store lays them out.
