@@ -33,12 +33,8 @@ FN float f16_value(uint bits) {
 
 // unorm8: 0..255 for 0..1, round half to even, clamped; NaN becomes 0.
 FN uint unorm8_bits(float v) {
-    if (!(v > 0.0f)) return 0u;
-    if (v >= 1.0f) return 255u;
-    float scaled = v * 255.0f;
-    uint q = uint(scaled);
-    float rest = scaled - float(q);
-    return q + ((rest > 0.5f || (rest == 0.5f && (q & 1u) == 1u)) ? 1u : 0u);
+    float inside = v > 0.0f ? (v < 1.0f ? v : 1.0f) : 0.0f;
+    return floatBitsToUint(inside * 255.0f + 8388608.0f) & 255u;  // a sum with 2^23 is whole, rounded half to even
 }
 
 FN float unorm8_value(uint bits) { return float(bits) / 255.0f; }
