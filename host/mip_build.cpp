@@ -284,8 +284,11 @@ class Pyramid {
       cost(level, 3, p_.format, taps);
       return 3;
     }
-    planner_.pass("mip_average", module(level - 1, p_.format, p_.format, true), label("average", level), invocations(d),
-                  profile_.voxels.workgroup,
+    const int block = profile_.voxels.block;
+    const bool few = std::all_of(s.begin(), s.end(), [&](int n) { return mode_of(p_, n) <= pair; });
+    const int each = few ? block : 1;  // as the kernel has it
+    planner_.pass("mip_average", module(level - 1, p_.format, p_.format, true), label("average", level),
+                  invocations({(d[0] + each - 1) / each, d[1], d[2]}), profile_.voxels.workgroup,
                   {{"src_x", s[0]},
                    {"src_y", s[1]},
                    {"src_z", s[2]},
@@ -296,6 +299,7 @@ class Pyramid {
                   {{"MODE_X", mode_of(p_, s[0])},
                    {"MODE_Y", mode_of(p_, s[1])},
                    {"MODE_Z", mode_of(p_, s[2])},
+                   {"BLOCK", block},
                    {"SPLIT", profile_.voxels.split}},
                   {{"src", slot(level - 1)}, {"dst", slot(level)}});
     cost(level, 1, p_.format, taps);

@@ -88,12 +88,12 @@ Profile profile(const std::string& name) {
     p.rows = {16, 1, 32, 1, {4, 4, 1}};
     p.columns = {16, 4, 32, 1, {64, 1, 1}};
     p.pixels = {16, 1, 8, 1, {8, 8, 1}};
-    p.voxels = {0, 1, 0, 1, {32, 1, 1}};
+    p.voxels = {0, 8, 0, 1, {8, 4, 1}};
   } else if (name == "lavapipe") {
     p.rows = {0, 10, 32, 0, {32, 1, 1}};
     p.columns = {0, 10, 32, 0, {128, 1, 1}};
     p.pixels = {0, 1, 8, 0, {256, 1, 1}};
-    p.voxels = {0, 1, 0, 0, {64, 1, 1}};
+    p.voxels = {0, 2, 0, 0, {32, 4, 1}};
     p.texels = true;
   } else if (name == "gpu" || name == "opencl_gpu") {
     p.rows = {0, 4, 32, 0, {32, 4, 1}};
@@ -104,7 +104,7 @@ Profile profile(const std::string& name) {
   } else {
     p.name = "reference";
     p.rows = p.columns = p.pixels = {16, 1, 0, 1, {16, 4, 1}};
-    p.voxels = {0, 1, 0, 1, {64, 1, 1}};
+    p.voxels = {0, 4, 0, 1, {16, 4, 1}};
   }
   return p;
 }

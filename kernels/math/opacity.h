@@ -1,14 +1,14 @@
 // Premultiplied colour and opacity. Only + - * / and bits: the same result on every device.
 
-FN bool colour_is_finite(vec4 v) {
+// A fully transparent voxel whose colour is NaN or infinite has none; a finite colour without opacity is emission.
+#if CHANNELS == 4
+FN bool colour_is_finite(pixel v) {
     vec4 zero = v - v;  // or NaN
     return zero.x + zero.y + zero.z == 0.0f;
 }
-
-// A fully transparent voxel whose colour is NaN or infinite has none; a finite colour without opacity is emission.
-#if CHANNELS == 4
 FN pixel drop_hidden_colour(pixel v) { return v.w == 0.0f && !colour_is_finite(v) ? vec4(0.0f) : v; }
 #else
+FN bool colour_is_finite(pixel v) { return v - v == 0.0f; }
 FN pixel drop_hidden_colour(pixel v) { return v; }
 #endif
 

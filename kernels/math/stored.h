@@ -3,12 +3,8 @@
 // seen as one and rounds to even. In units of 1 it would not, and levels would drift upwards by 1/25 step each.
 // `n` as math/exact.h wants it.
 
-FN float to_even(float v, int n) {
-    float low = floor(v);
-    float rest = v - low;
-    bool odd = low - 2.0f * floor(0.5f * low) == 1.0f;
-    return in_double(n) ? v : low + ((rest > 0.5f || (rest == 0.5f && odd)) ? 1.0f : 0.0f);
-}
+// 1.5 * 2^23: a sum with it is a whole number, rounded half to even.
+FN float to_even(float v, int n) { return in_double(n) ? v : (v + 12582912.0f) - 12582912.0f; }
 FN float f16_nearest(float v, int n) { return in_double(n) ? v : f16_value(f16_bits(v)); }
 // Texture units hand out unorm8 to within a few units in the last place; there is a whole number of steps.
 FN float snapped(float v, int n) { return in_double(n) ? v : floor(255.0f * v + 0.5f) / 255.0f; }

@@ -13,35 +13,57 @@ FN pixel fine(CTX, int x, int y, int z, bool clean) {
     return to_steps(v);
 }
 
-FN pixel along_x(CTX, int i, int y, int z, bool clean) {
-    pixel t[5];
-    UNROLL for (int k = 0; k < mip_taps(MODE_X); ++k)
-        t[k] = fine(ctx, mip_tap(MODE_X, i, k, params.src_x), y, z, clean);
-    return mip_mean(MODE_X, t, i, params.dst_x, params.src_x);
-}
-
-FN pixel along_y(CTX, int i, int j, int z, bool clean) {
-    pixel t[5];
-    UNROLL for (int k = 0; k < mip_taps(MODE_Y); ++k)
-        t[k] = along_x(ctx, i, mip_tap(MODE_Y, j, k, params.src_y), z, clean);
-    return mip_mean(MODE_Y, t, j, params.dst_y, params.src_y);
-}
-
-FN pixel along_z(CTX, int i, int j, int l, bool clean) {
+FN pixel along_z(CTX, int x, int y, int l, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_Z); ++k)
-        t[k] = along_y(ctx, i, j, mip_tap(MODE_Z, l, k, params.src_z), clean);
-    return mip_mean(MODE_Z, t, l, params.dst_z, params.src_z);
+        t[k] = fine(ctx, x, y, mip_tap(MODE_Z, l, k, params.src_z), clean);
+    return mip_sum(MODE_Z, t, l, params.dst_z, params.src_z);
 }
 
+FN pixel along_y(CTX, int x, int j, int l, bool clean) {
+    pixel t[5];
+    UNROLL for (int k = 0; k < mip_taps(MODE_Y); ++k)
+        t[k] = along_z(ctx, x, mip_tap(MODE_Y, j, k, params.src_y), l, clean);
+    return mip_sum(MODE_Y, t, j, params.dst_y, params.src_y);
+}
+
+FN pixel along_x(CTX, int i, int j, int l, bool clean) {
+    pixel t[5];
+    UNROLL for (int k = 0; k < mip_taps(MODE_X); ++k)
+        t[k] = along_y(ctx, mip_tap(MODE_X, i, k, params.src_x), j, l, clean);
+    return mip_share(MODE_X) * mip_share(MODE_Y) * mip_share(MODE_Z) *
+           mip_sum(MODE_X, t, i, params.dst_x, params.src_x);
+}
+
+FN void keep(CTX, int x, int y, int z, pixel v) {
+    const ivec3 extent = ivec3(params.dst_x, params.dst_y, params.dst_z);
+    store_voxel(dst, extent, ivec3(x, y, z), from_steps(v, params.src_x));
+}
+
+// Neighbours of a row: BLOCK, or one where an extent is odd (there are up to 125 taps then). What is not finite shows
+// in their sum.
 KERNEL(mip_average) {
-    const int x = invocation_x();
+    const int each = MODE_X <= MIP_PAIR && MODE_Y <= MIP_PAIR && MODE_Z <= MIP_PAIR ? BLOCK : 1;
+    const int x = invocation_x() * each;
     const int y = invocation_y();
     const int z = invocation_z();
     if (x >= params.dst_x || y >= params.dst_y || z >= params.dst_z) return;
-    pixel v = along_z(ctx, x, y, z, params.clean != 0 && SPLIT == 0);
-#if CHANNELS == 4
-    if (SPLIT != 0 && params.clean != 0 && !colour_is_finite(v)) v = along_z(ctx, x, y, z, true);
-#endif
-    store_voxel(dst, ivec3(params.dst_x, params.dst_y, params.dst_z), ivec3(x, y, z), from_steps(v, params.src_x));
+    const bool clean = params.clean != 0;
+    pixel v[BLOCK];
+    if (SPLIT != 0 && x + each <= params.dst_x) {
+        UNROLL for (int b = 0; b < each; ++b) v[b] = along_x(ctx, x + b, y, z, false);
+        pixel sum = v[0];
+        UNROLL for (int b = 1; b < each; ++b) sum = sum + v[b];
+        if (!clean || colour_is_finite(sum)) {
+            UNROLL for (int b = 0; b < each; ++b) keep(ctx, x + b, y, z, v[b]);
+            return;
+        }
+    }
+    if (SPLIT != 0) {
+        for (int b = 0; b < each && x + b < params.dst_x; ++b) keep(ctx, x + b, y, z, along_x(ctx, x + b, y, z, clean));
+        return;
+    }
+    UNROLL for (int b = 0; b < each; ++b) v[b] = along_x(ctx, min(x + b, params.dst_x - 1), y, z, clean);
+    UNROLL for (int b = 0; b < each; ++b)
+        if (x + b < params.dst_x) keep(ctx, x + b, y, z, v[b]);
 }

@@ -30,7 +30,8 @@
     _(1, int, MODE_Y, 1) \
     _(2, int, MODE_Z, 1)
 #define SHAPE(_) \
-    _(8, int, SPLIT, 1)  /* 1: a result that is not finite is taken again, cleaned; 0: each voxel is cleaned as it is read */
+    _(8, int, BLOCK, 4)  /* texels of a row that an invocation makes */ \
+    _(9, int, SPLIT, 1)  /* 1: a result that is not finite is taken again, cleaned; 0: each voxel is cleaned as it is read */
 #define BINDINGS(_) \
     _(SRC_KIND, 0, PIXEL, src) \
     _(WRITE, 1, PIXEL, dst)

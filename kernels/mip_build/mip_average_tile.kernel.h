@@ -15,27 +15,19 @@ FN pixel fine(CTX, int x, int y, int z) {
     return to_steps(v);
 }
 
-FN pixel plane_of_source(CTX, ivec3 a, ivec3 b, int z) {
-    return mip_pair(mip_pair(fine(ctx, a.x, a.y, z), fine(ctx, b.x, a.y, z)),
-                    mip_pair(fine(ctx, a.x, b.y, z), fine(ctx, b.x, b.y, z)));
-}
-
 FN pixel from_tile(CTX, int x, int y, int z) { return load(tile, (z * TILE_Y + y) * TILE_X + x); }
-FN pixel plane_of_tile(CTX, ivec3 a, ivec3 b, int z) {
-    return mip_pair(mip_pair(from_tile(ctx, a.x, a.y, z), from_tile(ctx, b.x, a.y, z)),
-                    mip_pair(from_tile(ctx, a.x, b.y, z), from_tile(ctx, b.x, b.y, z)));
-}
-
 FN pixel from_small(CTX, int x, int y, int z) { return load(small, (z * (TILE_Y / 2) + y) * (TILE_X / 2) + x); }
-FN pixel plane_of_small(CTX, ivec3 a, ivec3 b, int z) {
-    return mip_pair(mip_pair(from_small(ctx, a.x, a.y, z), from_small(ctx, b.x, a.y, z)),
-                    mip_pair(from_small(ctx, a.x, b.y, z), from_small(ctx, b.x, b.y, z)));
-}
 
 // The first and the second of the pair of each axis that texel p covers, in a level of this extent; along an axis of
 // extent 1 they are one.
 FN ivec3 first_of(ivec3 p, ivec3 extent) { return min(2 * p, extent - 1); }
 FN ivec3 second_of(ivec3 p, ivec3 extent) { return min(2 * p + 1, extent - 1); }
+
+// The mean of eight (four where the tile is flat), added along z, y, x as mip_average adds.
+#define COLUMN(from, x, y) (TILE_Z > 1 ? from(ctx, x, y, a.z) + from(ctx, x, y, b.z) : from(ctx, x, y, a.z))
+#define MEAN(from) \
+    (TILE_Z > 1 ? 0.125f : 0.25f) * \
+        ((COLUMN(from, a.x, a.y) + COLUMN(from, a.x, b.y)) + (COLUMN(from, b.x, a.y) + COLUMN(from, b.x, b.y)))
 
 KERNEL(mip_average_tile) {
     const ivec3 extent = ivec3(params.src_x, params.src_y, params.src_z);
@@ -49,8 +41,7 @@ KERNEL(mip_average_tile) {
         const ivec3 p = group * size + lane;
         const ivec3 a = first_of(p, extent);
         const ivec3 b = second_of(p, extent);
-        pixel v = plane_of_source(ctx, a, b, a.z);
-        if (TILE_Z > 1) v = mip_pair(v, plane_of_source(ctx, a, b, b.z));
+        const pixel v = MEAN(fine);
         if (within(p, extent_a)) store_voxel(dst_a, extent_a, p, from_steps(v, params.src_x));
         store(tile, (lane.z * TILE_Y + lane.y) * TILE_X + lane.x, rounded(v, params.src_x));
     }
@@ -60,8 +51,7 @@ KERNEL(mip_average_tile) {
             const ivec3 p = group * half_size + lane;
             const ivec3 a = first_of(p, extent_a) - group * size;
             const ivec3 b = second_of(p, extent_a) - group * size;
-            pixel v = plane_of_tile(ctx, a, b, a.z);
-            if (TILE_Z > 1) v = mip_pair(v, plane_of_tile(ctx, a, b, b.z));
+            const pixel v = MEAN(from_tile);
             if (within(p, extent_b)) store_voxel(dst_b, extent_b, p, from_steps(v, params.src_x));
             store(small, (lane.z * half_size.y + lane.y) * half_size.x + lane.x, rounded(v, params.src_x));
         }
@@ -73,8 +63,7 @@ KERNEL(mip_average_tile) {
         if (within(lane, quarter) && within(p, extent_c)) {
             const ivec3 a = first_of(p, extent_b) - group * half_size;
             const ivec3 b = second_of(p, extent_b) - group * half_size;
-            pixel v = plane_of_small(ctx, a, b, a.z);
-            if (TILE_Z > 1) v = mip_pair(v, plane_of_small(ctx, a, b, b.z));
+            const pixel v = MEAN(from_small);
             store_voxel(dst_c, extent_c, p, from_steps(v, params.src_x));
         }
     }

@@ -43,13 +43,14 @@ FN pixel along_u(CTX, ivec3 i, int v, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_U); ++k)
         t[k] = composite_along(ctx, i.x, mip_tap(MODE_U, i.y, k, 0), v, clean);
-    return mip_mean(MODE_U, t, i.y, turned(ctx, dst_extent(ctx)).y, turned(ctx, src_extent(ctx)).y);
+    return mip_sum(MODE_U, t, i.y, turned(ctx, dst_extent(ctx)).y, turned(ctx, src_extent(ctx)).y);
 }
 
 FN pixel along_v(CTX, ivec3 i, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_V); ++k) t[k] = along_u(ctx, i, mip_tap(MODE_V, i.z, k, 0), clean);
-    return mip_mean(MODE_V, t, i.z, turned(ctx, dst_extent(ctx)).z, turned(ctx, src_extent(ctx)).z);
+    return mip_share(MODE_U) * mip_share(MODE_V) *
+           mip_sum(MODE_V, t, i.z, turned(ctx, dst_extent(ctx)).z, turned(ctx, src_extent(ctx)).z);
 }
 
 KERNEL(mip_directional) {
