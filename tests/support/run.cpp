@@ -132,22 +132,24 @@ Bytes encode(Format format, const std::vector<float>& values, bool real64) {
   }
 }
 
-std::vector<double> decode(Format format, const Bytes& bytes, bool real64) {
-  std::vector<double> values;
-  const auto read = [&](auto stored, auto value) {
-    for (std::size_t at = 0; at + sizeof stored <= bytes.size(); at += sizeof stored) {
-      std::memcpy(&stored, bytes.data() + at, sizeof stored);
-      values.push_back(static_cast<double>(value(stored)));
-    }
+double decode_at(Format format, const Bytes& bytes, std::size_t index) {
+  const auto read = [&](auto stored) {
+    std::memcpy(&stored, bytes.data() + index * sizeof stored, sizeof stored);
+    return stored;
   };
+  switch (storage_bytes(format)) {
+    case 1: return static_cast<double>(reference::unorm8_value(read(std::uint8_t{})));
+    case 2: return static_cast<double>(reference::f16_value(read(std::uint16_t{})));
+    default: return static_cast<double>(read(float{}));
+  }
+}
+
+std::vector<double> decode(Format format, const Bytes& bytes, bool real64) {
+  std::vector<double> values(bytes.size() / (real64 ? sizeof(double) : static_cast<std::size_t>(storage_bytes(format))));
   if (real64) {
-    read(double{}, [](double v) { return v; });
-  } else if (storage_bytes(format) == 1) {
-    read(std::uint8_t{}, [](std::uint8_t v) { return reference::unorm8_value(v); });
-  } else if (storage_bytes(format) == 2) {
-    read(std::uint16_t{}, [](std::uint16_t v) { return reference::f16_value(v); });
+    std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
   } else {
-    read(float{}, [](float v) { return v; });
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = decode_at(format, bytes, i);
   }
   return values;
 }

@@ -22,6 +22,8 @@ Context& test_context(const std::string& device);
 /// Values as a format stores them; with `real64` every channel is a double, as cpu:double has them.
 Bytes encode(Format format, const std::vector<float>& values, bool real64 = false);
 std::vector<double> decode(Format format, const Bytes& bytes, bool real64 = false);
+/// Value `index` of these.
+double decode_at(Format format, const Bytes& bytes, std::size_t index);
 
 template <class T>
 Bytes bytes_of(const std::vector<T>& values) {
