@@ -1,6 +1,6 @@
 // One axis of a pyramid: which of the n fine texels make coarse texel i of m, and how they are averaged. Every mean is
-// written so that equal values give that value, bit for bit, and so that no weight rounds. Pairs are only added: the
-// halves of all axes are taken at once.
+// written so that equal values give that value, bit for bit, and so that no weight rounds. Each pair is
+// halved at once, so that nothing overflows below half of the largest float.
 #ifdef SCALAR_MEANS
 #define MEAN_TYPE float
 #else
@@ -24,24 +24,22 @@ FN int mip_tap(int mode, int i, int k, int n) {
     return clamp(at, 0, n - 1);
 }
 
-// What a sum over the taps of an axis is multiplied by.
-FN float mip_share(int mode) { return mode == MIP_PAIR ? 0.5f : 1.0f; }
-
+FN MEAN_TYPE mip_pair(MEAN_TYPE a, MEAN_TYPE b) { return 0.5f * (a + b); }
 FN MEAN_TYPE mip_121(MEAN_TYPE a, MEAN_TYPE b, MEAN_TYPE c) { return 0.5f * b + 0.25f * (a + c); }
 
 FN MEAN_TYPE mip_triple(MEAN_TYPE a, MEAN_TYPE b, MEAN_TYPE c, int i, int m, int n) {
     return b + (float(m - i) / float(n) * (a - b) + float(i + 1) / float(n) * (c - b));
 }
 
-// The mean of the taps of coarse texel i, divided by mip_share.
-FN MEAN_TYPE mip_sum(int mode, MEAN_TYPE t[5], int i, int m, int n) {
+// The mean of the taps of coarse texel i.
+FN MEAN_TYPE mip_mean(int mode, MEAN_TYPE t[5], int i, int m, int n) {
     if (mode == MIP_COPY) return t[0];
-    if (mode == MIP_PAIR) return t[0] + t[1];
+    if (mode == MIP_PAIR) return mip_pair(t[0], t[1]);
     if (mode == MIP_TRIPLE) return mip_triple(t[0], t[1], t[2], i, m, n);
     if (mode == MIP_VERTEX) return mip_121(t[0], t[1], t[2]);
     if (mode == MIP_SMOOTH) {
-        MEAN_TYPE inner = 0.5f * (t[1] + t[2]);
-        return inner + 0.25f * (0.5f * (t[0] + t[3]) - inner);
+        MEAN_TYPE inner = mip_pair(t[1], t[2]);
+        return inner + 0.25f * (mip_pair(t[0], t[3]) - inner);
     }
     return mip_triple(mip_121(t[0], t[1], t[2]), mip_121(t[1], t[2], t[3]), mip_121(t[2], t[3], t[4]), i, m, n);
 }

@@ -17,22 +17,21 @@ FN pixel along_z(CTX, int x, int y, int l, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_Z); ++k)
         t[k] = fine(ctx, x, y, mip_tap(MODE_Z, l, k, params.src_z), clean);
-    return mip_sum(MODE_Z, t, l, params.dst_z, params.src_z);
+    return mip_mean(MODE_Z, t, l, params.dst_z, params.src_z);
 }
 
 FN pixel along_y(CTX, int x, int j, int l, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_Y); ++k)
         t[k] = along_z(ctx, x, mip_tap(MODE_Y, j, k, params.src_y), l, clean);
-    return mip_sum(MODE_Y, t, j, params.dst_y, params.src_y);
+    return mip_mean(MODE_Y, t, j, params.dst_y, params.src_y);
 }
 
 FN pixel along_x(CTX, int i, int j, int l, bool clean) {
     pixel t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_X); ++k)
         t[k] = along_y(ctx, mip_tap(MODE_X, i, k, params.src_x), j, l, clean);
-    return mip_share(MODE_X) * mip_share(MODE_Y) * mip_share(MODE_Z) *
-           mip_sum(MODE_X, t, i, params.dst_x, params.src_x);
+    return mip_mean(MODE_X, t, i, params.dst_x, params.src_x);
 }
 
 FN void keep(CTX, int x, int y, int z, pixel v) {

@@ -23,11 +23,11 @@ FN pixel from_small(CTX, int x, int y, int z) { return load(small, (z * (TILE_Y 
 FN ivec3 first_of(ivec3 p, ivec3 extent) { return min(2 * p, extent - 1); }
 FN ivec3 second_of(ivec3 p, ivec3 extent) { return min(2 * p + 1, extent - 1); }
 
-// The mean of eight (four where the tile is flat), added along z, y, x as mip_average adds.
-#define COLUMN(from, x, y) (TILE_Z > 1 ? from(ctx, x, y, a.z) + from(ctx, x, y, b.z) : from(ctx, x, y, a.z))
+// The mean of eight (four where the tile is flat) along z, y, x, as mip_average takes it.
+#define COLUMN(from, x, y) (TILE_Z > 1 ? mip_pair(from(ctx, x, y, a.z), from(ctx, x, y, b.z)) : from(ctx, x, y, a.z))
 #define MEAN(from) \
-    (TILE_Z > 1 ? 0.125f : 0.25f) * \
-        ((COLUMN(from, a.x, a.y) + COLUMN(from, a.x, b.y)) + (COLUMN(from, b.x, a.y) + COLUMN(from, b.x, b.y)))
+    mip_pair(mip_pair(COLUMN(from, a.x, a.y), COLUMN(from, a.x, b.y)), \
+             mip_pair(COLUMN(from, b.x, a.y), COLUMN(from, b.x, b.y)))
 
 KERNEL(mip_average_tile) {
     const ivec3 extent = ivec3(params.src_x, params.src_y, params.src_z);

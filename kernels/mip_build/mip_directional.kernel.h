@@ -46,14 +46,14 @@ FN pixel along_u(CTX, PLACE p, ivec3 i, ivec3 m, ivec3 n, bool clean) {
     pixel t[5];
     const PLACE next = step_along(ctx, params.axis == 0 ? 1 : 0);
     UNROLL for (int k = 0; k < mip_taps(MODE_U); ++k) t[k] = composite_along(ctx, p + k * next, i.x, m.x, clean);
-    return mip_sum(MODE_U, t, i.y, m.y, n.y);
+    return mip_mean(MODE_U, t, i.y, m.y, n.y);
 }
 
 FN pixel along_v(CTX, PLACE p, ivec3 i, ivec3 m, ivec3 n, bool clean) {
     pixel t[5];
     const PLACE next = step_along(ctx, params.axis == 2 ? 1 : 2);
     UNROLL for (int k = 0; k < mip_taps(MODE_V); ++k) t[k] = along_u(ctx, p + k * next, i, m, n, clean);
-    return mip_share(MODE_U) * mip_share(MODE_V) * mip_sum(MODE_V, t, i.z, m.z, n.z);
+    return mip_mean(MODE_V, t, i.z, m.z, n.z);
 }
 
 KERNEL(mip_directional) {

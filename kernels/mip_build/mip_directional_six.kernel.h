@@ -16,10 +16,9 @@ FN vec4 seen(int pair, vec4 front, vec4 back) { return to_steps(pair != 0 ? comp
 
 // The mean over the two axes across, u first, as it is stored.
 FN vec4 mean_of(CTX, int pair_u, int pair_v, vec4 a, vec4 b, vec4 c, vec4 d) {
-    vec4 low = pair_u != 0 ? a + b : a;
-    vec4 high = pair_u != 0 ? c + d : c;
-    float share = (pair_u != 0 ? 0.5f : 1.0f) * (pair_v != 0 ? 0.5f : 1.0f);
-    return from_steps(share * (pair_v != 0 ? low + high : low), params.src_x);
+    vec4 low = pair_u != 0 ? mip_pair(a, b) : a;
+    vec4 high = pair_u != 0 ? mip_pair(c, d) : c;
+    return from_steps(pair_v != 0 ? mip_pair(low, high) : low, params.src_x);
 }
 
 // Writes the six; returns whether the two along x are finite. What is not finite shows in one of them at least.

@@ -18,14 +18,14 @@ FN float along_x(CTX, int i, int y, bool about, float mu) {
         vec2 v = fine(ctx, mip_tap(MODE_X, i, k, params.src_x), y);
         t[k] = about ? v.y * v.y + (v.x - mu) * (v.x - mu) : v.x;
     }
-    return mip_sum(MODE_X, t, i, params.dst_x, params.src_x);
+    return mip_mean(MODE_X, t, i, params.dst_x, params.src_x);
 }
 
 FN float along_y(CTX, int i, int j, bool about, float mu) {
     float t[5];
     UNROLL for (int k = 0; k < mip_taps(MODE_Y); ++k)
         t[k] = along_x(ctx, i, mip_tap(MODE_Y, j, k, params.src_y), about, mu);
-    return mip_share(MODE_X) * mip_share(MODE_Y) * mip_sum(MODE_Y, t, j, params.dst_y, params.src_y);
+    return mip_mean(MODE_Y, t, j, params.dst_y, params.src_y);
 }
 
 KERNEL(mip_moments) {
