@@ -1,0 +1,159 @@
+#include <luxel/voxel_inject.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/check.h"
+#include "host/planner.h"
+
+namespace luxel {
+
+namespace {
+
+constexpr int brick_side = 8;
+constexpr std::size_t brick_voxels = 512;
+constexpr double steps = 16384;  // of irradiance_max, as kernels/voxelize/voxel_inject_map has it
+constexpr std::uint32_t strided = 65536;  // invocations of passes that stride over their work
+
+std::size_t bricks_of(const VoxelInjectParams& p) {
+  const auto along = [](int n) { return static_cast<std::size_t>((n + brick_side - 1) / brick_side); };
+  return along(p.width) * along(p.height) * along(p.depth);
+}
+
+std::size_t voxels_of(const VoxelInjectParams& p) {
+  return static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height) * static_cast<std::size_t>(p.depth);
+}
+
+std::size_t sums_of(const VoxelInjectParams& p) { return static_cast<std::size_t>(p.bricks) * brick_voxels * 4; }
+
+Status check_above_zero(const char* field, double value) {
+  return value > 0 && std::isfinite(value) ? Status() : out_of_range(field, value, "a number above 0");
+}
+
+}  // namespace
+
+Status validate(const VoxelInjectParams& p) {
+  LUXEL_CHECK(check_range("VoxelInjectParams.width", p.width, 1, 2048));
+  LUXEL_CHECK(check_range("VoxelInjectParams.height", p.height, 1, 2048));
+  LUXEL_CHECK(check_range("VoxelInjectParams.depth", p.depth, 1, 2048));
+  if (voxels_of(p) * 4 > 0x7fffffff)
+    return out_of_range("VoxelInjectParams.depth", p.depth, "width x height x depth of at most 536870911");
+  if (p.format != Format::f32x4 && p.format != Format::f16x4 && p.format != Format::unorm8x4)
+    return out_of_range("VoxelInjectParams.format", name(p.format), "f32x4, f16x4 or unorm8x4");
+  LUXEL_CHECK(check_range("VoxelInjectParams.bricks", p.bricks, 1, static_cast<int>(bricks_of(p))));
+  LUXEL_CHECK(check_range("VoxelInjectParams.lights", p.lights, 0, 65536));
+  LUXEL_CHECK(check_range("VoxelInjectParams.normal_offset", p.normal_offset, 0.0, 64.0));
+  const int least = p.map_width > 0 || p.map_height > 0;
+  LUXEL_CHECK(check_range("VoxelInjectParams.map_width", p.map_width, least, 32768));
+  LUXEL_CHECK(check_range("VoxelInjectParams.map_height", p.map_height, least, 32768));
+  LUXEL_CHECK(check_above_zero("VoxelInjectParams.irradiance_max", p.irradiance_max));
+  if (least && sums_of(p) > 0x7fffffff)
+    return out_of_range("VoxelInjectParams.bricks", p.bricks, "1..1048575 with a map");
+  LUXEL_CHECK(check_above_zero("VoxelInjectParams.voxel", p.voxel));
+  return check_above_zero("VoxelInjectParams.scale", p.scale);
+}
+
+Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
+  LUXEL_CHECK(validate(p));
+  const bool map = p.map_width > 0, list = p.lights > 0 || !map;
+  const std::size_t pixel = bytes_per_pixel(p.format), voxels = voxels_of(p);
+  const std::string format = name(p.format);
+  Planner planner("voxel_inject");
+  const auto resource = [&](const char* name, Format f, std::size_t bytes, bool written = false) {
+    Resource r{name};
+    r.format = f;
+    r.bytes = bytes;
+    r.written = written;
+    return planner.resource(r);
+  };
+  const Slot colour = resource("colour", p.format, voxels * pixel);
+  const Slot normal = list ? resource("normal", p.format, voxels * pixel) : Slot{};
+  const Slot emission = p.emission ? resource("emission", p.format, voxels * pixel) : Slot{};
+  const Slot bricks = resource("bricks", Format::u32, static_cast<std::size_t>(p.bricks) * 4);
+  const Slot counters = resource("voxel_counters", Format::u32, 64);
+  const Slot lights =
+      list ? resource("lights", Format::f32x4, static_cast<std::size_t>(std::max(p.lights, 1)) * 48) : Slot{};
+  const Slot texels = map ? resource("map", Format::f32x4,
+                                     static_cast<std::size_t>(p.map_width) * static_cast<std::size_t>(p.map_height) * 32)
+                          : Slot{};
+  const Slot radiance = resource("radiance", p.format, voxels * pixel, true);
+  const Slot outcomes = p.count ? resource("outcomes", Format::u32, 32, true) : planner.scratch(Format::u32, 8);
+
+  const std::array<std::uint32_t, 3> line{64, 1, 1};
+  const auto zero = [&](Slot words, std::size_t count, const char* what) {
+    planner.pass("voxel_inject_zero", "u32", std::string("voxel_inject clear ") + what, {strided, 1, 1}, line,
+                 {{"count", static_cast<double>(count)}, {"stride", strided}}, {}, {{"words", words}});
+    planner.cost(0, static_cast<double>(count) * 4);
+  };
+  if (p.clear) {
+    planner.pass("voxel_inject_clear", format, "voxel_inject clear radiance", {strided, 1, 1}, line,
+                 {{"count", static_cast<double>(voxels)}, {"stride", strided}}, {}, {{"radiance", radiance}});
+    planner.cost(0, static_cast<double>(voxels * pixel));
+  }
+  zero(outcomes, 8, "outcomes");
+
+  const std::uint32_t capacity = static_cast<std::uint32_t>(p.bricks);
+  Slot sums;
+  if (map) {
+    const Slot slots = planner.scratch(Format::u32, bricks_of(p));
+    sums = planner.scratch(Format::u32, sums_of(p));
+    zero(slots, bricks_of(p), "slots");
+    zero(sums, sums_of(p), "sums");
+    planner.pass("voxel_inject_slots", "u32", "voxel_inject slots", {capacity, 1, 1}, line, {{"bricks", p.bricks}}, {},
+                 {{"brick_list", bricks}, {"voxel_counters", counters}, {"slots", slots}});
+    planner.pass("voxel_inject_map", format, "voxel_inject map",
+                 {static_cast<std::uint32_t>(p.map_width), static_cast<std::uint32_t>(p.map_height), 1},
+                 profile.pixels.workgroup,
+                 {{"width", p.width},
+                  {"height", p.height},
+                  {"depth", p.depth},
+                  {"map_width", p.map_width},
+                  {"map_height", p.map_height},
+                  {"per_unit", steps / p.irradiance_max}},
+                 {{"COUNT", p.count}},
+                 {{"map", texels}, {"colour", colour}, {"slots", slots}, {"sums", sums}, {"outcomes", outcomes}});
+    planner.cost(0, static_cast<double>(p.map_width) * p.map_height * 48.0);
+  }
+
+  std::vector<std::pair<std::string_view, Slot>> slots{
+      {"colour", colour}, {"brick_list", bricks}, {"voxel_counters", counters}, {"radiance", radiance}, {"outcomes", outcomes}};
+  if (list) slots.insert(slots.end(), {{"normal", normal}, {"lights", lights}});
+  if (map) slots.emplace_back("sums", sums);
+  if (p.emission) slots.emplace_back("emission", emission);
+  const std::string module = std::string(!map ? "lights_" : list ? "both_" : "map_") + (p.emission ? "emission_" : "") + format;
+  planner.pass("voxel_inject", module, "voxel_inject", {brick_voxels, capacity, 1}, line,
+               {{"width", p.width},
+                {"height", p.height},
+                {"depth", p.depth},
+                {"bricks", p.bricks},
+                {"lights", p.lights},
+                {"voxel", p.voxel},
+                {"normal_offset", p.normal_offset},
+                {"unit", p.irradiance_max / steps},
+                {"scale", p.scale}},
+               {{"COUNT", p.count}}, slots);
+  planner.cost(0, static_cast<double>(p.bricks) * static_cast<double>(brick_voxels * pixel * (3 + p.emission)));
+  return std::move(planner).finish();
+}
+
+std::vector<float> voxel_lights(const std::vector<VoxelLight>& lights, const std::array<double, 3>& origin, double voxel) {
+  std::vector<float> words;
+  words.reserve(lights.size() * 12);
+  const auto append = [&](std::array<double, 3> v, double scale, double w) {
+    for (const double c : v) words.push_back(static_cast<float>(c * scale));
+    words.push_back(static_cast<float>(w));
+  };
+  const auto unit = [](const std::array<double, 3>& v) { return 1 / std::hypot(v[0], v[1], v[2]); };
+  for (const VoxelLight& light : lights) {
+    const bool sun = light.kind == VoxelLight::Kind::sun;
+    std::array<double, 3> place = light.place;
+    if (!sun)
+      for (int i = 0; i < 3; ++i) place[i] -= origin[i];
+    append(place, sun ? unit(place) : 1 / voxel, static_cast<int>(light.kind));
+    append(light.power, 1, 0);
+    append(light.normal, unit(light.normal), 0);
+  }
+  return words;
+}
+
+}  // namespace luxel

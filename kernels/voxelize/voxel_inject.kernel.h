@@ -1,0 +1,137 @@
+// Outgoing radiance of the voxels of touched bricks: Le + rho / pi E, E from lights with shadow rays through the voxels, and
+// the mean over the texels of a map.
+
+FN ivec3 extent_of(CTX) { return ivec3(params.width, params.height, params.depth); }
+
+#if MAP
+// Mean of the texels, in `w` how many.
+FN vec4 mean_of_texels(CTX, int slot, int v) {
+    const int at = (slot * LIT_BRICK_VOXELS + v) * 4;
+    const uint texels = load(sums, at + 3);
+    if (texels == 0u) return vec4(0.0f);
+    const float unit = params.unit / float(texels);
+    return vec4(unit * float(load(sums, at)), unit * float(load(sums, at + 1)), unit * float(load(sums, at + 2)),
+                float(texels));
+}
+#endif
+
+#if LIGHTS
+FN vec3 normal_at(CTX, ivec3 p) {
+    const vec4 n = load_voxel(normal, extent_of(ctx), p);
+    if (UNORM != 0) return vec3(2.0f * n.x - 1.0f, 2.0f * n.y - 1.0f, 2.0f * n.z - 1.0f);
+    return vec3(n.x, n.y, n.z);
+}
+
+// Distance along one axis to the next boundary between cells.
+FN float to_boundary(float from, int cell, float direction) {
+    if (direction == 0.0f) return 1.0e30f;
+    return (float(direction > 0.0f ? cell + 1 : cell) - from) / direction;
+}
+FN float across(float direction) { return direction == 0.0f ? 1.0e30f : abs(1.0f / direction); }
+FN int side_of(float direction) { return direction > 0.0f ? 1 : -1; }
+
+// Transmittance over `reach` voxels: cells of coverage a let (1 - a)^chord pass (Amanatides and Woo 1987, the walk).
+FN float transmittance(CTX, vec3 from, vec3 direction, float reach) {
+    const ivec3 extent = extent_of(ctx);
+    ivec3 cell = ivec3(int(floor(from.x)), int(floor(from.y)), int(floor(from.z)));
+    vec3 next = vec3(to_boundary(from.x, cell.x, direction.x), to_boundary(from.y, cell.y, direction.y),
+                     to_boundary(from.z, cell.z, direction.z));
+    const vec3 stride = vec3(across(direction.x), across(direction.y), across(direction.z));
+    const ivec3 side = ivec3(side_of(direction.x), side_of(direction.y), side_of(direction.z));
+    const int most = params.width + params.height + params.depth;
+    float passed = 1.0f;
+    float t = 0.0f;
+    for (int step = 0; step < most && t < reach && in_grid(cell, extent); ++step) {
+        const float leave = min(min(next.x, next.y), next.z);
+        const float a = load_voxel(colour, extent, cell).w;
+        if (a >= 1.0f) return 0.0f;
+        if (a > 0.0f) {  // a chord may be longer than 1, its half is not
+            const float half_passed = 1.0f - a * layer_part(a, 0.5f * (min(leave, reach) - t));
+            passed = passed * (half_passed * half_passed);
+        }
+        t = leave;
+        if (next.x <= next.y && next.x <= next.z) {
+            next.x += stride.x;
+            cell.x += side.x;
+        } else if (next.y <= next.z) {
+            next.y += stride.y;
+            cell.y += side.y;
+        } else {
+            next.z += stride.z;
+            cell.z += side.z;
+        }
+    }
+    return passed;
+}
+
+// Irradiance by one light; n: mean normal, `length` long.
+FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
+    const vec4 place = load(lights, 3 * light);
+    const vec4 power = load(lights, 3 * light + 1);
+    const vec4 front = load(lights, 3 * light + 2);
+    vec3 to = vec3(place.x, place.y, place.z);
+    float reach = 1.0e30f;
+    float share = 1.0f;
+    if (place.w != float(LIGHT_SUN)) {
+        to = to - centre;
+        const float squared = inner(to, to);
+        if (squared == 0.0f) return vec3(0.0f);
+        reach = sqrt(squared);
+        to = to / reach;
+        share = 1.0f / (squared * params.voxel * params.voxel);
+        if (place.w == float(LIGHT_PATCH)) {
+            share = share * max(0.0f, -inner(to, vec3(front.x, front.y, front.z)));
+            reach = reach - params.normal_offset;
+        }
+    }
+    const float facing = inner(n, to);
+    share = share * (abs(facing) + 0.25f * max(0.0f, 1.0f - length));
+    if (!(share > 0.0f)) return vec3(0.0f);
+    vec3 above = to;
+    if (length > 0.0f) above = (facing < 0.0f ? -1.0f : 1.0f) / length * n;
+    share = share * transmittance(ctx, centre + params.normal_offset * above, to, reach);
+    return share * vec3(power.x, power.y, power.z);
+}
+
+FN vec3 by_lights(CTX, ivec3 p) {
+    const vec3 n = normal_at(ctx, p);
+    const float length = sqrt(inner(n, n));
+    const vec3 centre = vec3(float(p.x) + 0.5f, float(p.y) + 0.5f, float(p.z) + 0.5f);
+    vec3 sum = vec3(0.0f);
+    for (int light = 0; light < params.lights; ++light) sum = sum + irradiance_by(ctx, light, centre, n, length);
+    return sum;
+}
+#endif
+
+KERNEL(voxel_inject) {
+    const int slot = invocation_y();
+    if (slot >= int(min(load(voxel_counters, LIT_COUNT_BRICKS), uint(params.bricks)))) return;
+    const int v = invocation_x();
+    const ivec3 extent = extent_of(ctx);
+    const ivec3 p = lit_voxel(int(load(brick_list, slot)), v, extent);
+    if (!in_grid(p, extent)) return;
+    const vec4 surface = load_voxel(colour, extent, p);
+    if (!(surface.w > 0.0f)) {
+        store_voxel(radiance, extent, p, vec4(0.0f));
+        return;
+    }
+    vec3 arrived = vec3(0.0f);
+    bool lit = false;
+#if LIGHTS
+    arrived = by_lights(ctx, p);
+#endif
+#if MAP
+    const vec4 mean = mean_of_texels(ctx, slot, v);
+    arrived = arrived + vec3(mean.x, mean.y, mean.z);
+    lit = mean.w > 0.0f;
+#endif
+    lit = lit || arrived.x + arrived.y + arrived.z > 0.0f;
+    vec3 outgoing = 0.318309886183791f * vec3(surface.x * arrived.x, surface.y * arrived.y, surface.z * arrived.z);
+#if EMISSION
+    const vec4 own = load_voxel(emission, extent, p);
+    outgoing = outgoing + vec3(own.x, own.y, own.z);
+#endif
+    const float scale = params.scale * surface.w;
+    store_voxel(radiance, extent, p, vec4(scale * outgoing.x, scale * outgoing.y, scale * outgoing.z, surface.w));
+    if (COUNT != 0) atomic_add(outcomes, lit ? INJECT_LIT : INJECT_UNLIT, 1u);
+}

@@ -1,0 +1,5 @@
+// Clears counts and sums.
+
+KERNEL(voxel_inject_zero) {
+    for (int i = invocation_x(); i < params.count; i += params.stride) store(words, i, 0u);
+}
