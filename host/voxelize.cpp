@@ -1,0 +1,264 @@
+#include <luxel/voxelize.h>
+
+#include <algorithm>
+
+#include "host/check.h"
+#include "host/planner.h"
+
+namespace luxel {
+
+namespace {
+
+// kernels/math/voxel_grid.h
+constexpr int triangle_words = 12, block = 64, brick = 8, brick_voxels = 512, counter_words = 16;
+constexpr int count_blocks = 0, count_pieces = 1;
+constexpr int span = 256;                     // bricks an invocation of voxelize_scan
+constexpr std::uint32_t most_invocations = 1u << 18;  // of a launch that strides over a list
+
+std::int64_t cells(const VoxelizeParams& p, int side) {
+  const auto along = [&](int n) { return static_cast<std::int64_t>((n + side - 1) / side); };
+  return along(p.width) * along(p.height) * along(p.depth);
+}
+
+// What the plan really uses for capacities that are given as 0.
+struct Capacities {
+  int blocks, pieces, bricks;
+};
+Capacities capacities(const VoxelizeParams& p) {
+  const int most = static_cast<int>(std::min<std::int64_t>(4ll * p.triangles, 1 << 28));
+  return {p.blocks > 0 ? p.blocks : std::max(p.triangles, 1), p.pieces > 0 ? p.pieces : std::max(most, 1),
+          p.bricks > 0 ? p.bricks : static_cast<int>(cells(p, brick))};
+}
+
+// Accumulators of a voxel: weight, colour, opacity, normal, emission.
+int words(const VoxelizeParams& p) {
+  return p.merging == VoxelizeMerging::exact ? 4 + p.opacity + 3 * p.normal + 3 * p.emission : 1;
+}
+
+std::array<std::uint32_t, 3> launch(std::int64_t items) {
+  return {static_cast<std::uint32_t>(std::clamp<std::int64_t>(items, 1, most_invocations)), 1, 1};
+}
+constexpr std::array<std::uint32_t, 3> line{64, 1, 1};
+int stride(std::array<std::uint32_t, 3> invocations) {
+  return static_cast<int>((invocations[0] + line[0] - 1) / line[0] * line[0]);
+}
+
+}  // namespace
+
+Status validate(const VoxelizeParams& p) {
+  LUXEL_CHECK(check_range("VoxelizeParams.width", p.width, 1, 2048));
+  LUXEL_CHECK(check_range("VoxelizeParams.height", p.height, 1, 2048));
+  LUXEL_CHECK(check_range("VoxelizeParams.depth", p.depth, 1, 2048));
+  LUXEL_CHECK(check_range("VoxelizeParams.mode", static_cast<int>(p.mode), 0, 2));
+  LUXEL_CHECK(check_range("VoxelizeParams.merging", static_cast<int>(p.merging), 0, 2));
+  if (p.format != Format::f32x4 && p.format != Format::f16x4 && p.format != Format::unorm8x4)
+    return out_of_range("VoxelizeParams.format", name(p.format), "f32x4, f16x4 or unorm8x4");
+  if (p.merging != VoxelizeMerging::exact) {
+    if (p.normal) return out_of_range("VoxelizeParams.normal", "true", "false unless merging is exact");
+    if (p.emission) return out_of_range("VoxelizeParams.emission", "true", "false unless merging is exact");
+  }
+  if (p.merging == VoxelizeMerging::moving_average && p.opacity)
+    return out_of_range("VoxelizeParams.opacity", "true", "false for moving_average, whose fourth channel counts");
+  if (!(p.emission_max >= 1e-30 && p.emission_max <= 1e30))
+    return out_of_range("VoxelizeParams.emission_max", p.emission_max, "1e-30..1e+30");
+  LUXEL_CHECK(check_range("VoxelizeParams.triangles", p.triangles, 0, 1 << 27));
+  LUXEL_CHECK(check_range("VoxelizeParams.materials", p.materials, 1, 1 << 24));
+  LUXEL_CHECK(check_range("VoxelizeParams.blocks", p.blocks, 0, 1 << 28));
+  LUXEL_CHECK(check_range("VoxelizeParams.pieces", p.pieces, 0, 1 << 28));
+  LUXEL_CHECK(check_range("VoxelizeParams.bricks", p.bricks, 0, 1 << 24));
+  LUXEL_CHECK(check_range("VoxelizeParams.fragments", p.fragments, 0, 1 << 28));
+  if (static_cast<double>(p.width) * p.height * p.depth > 0x7fffffff)
+    return out_of_range("VoxelizeParams.depth", p.depth, "width x height x depth of at most 2147483647");
+  const std::int64_t bricks = capacities(p).bricks;
+  if (bricks * brick_voxels * words(p) > 0x7fffffff)
+    return out_of_range("VoxelizeParams.bricks", p.bricks,
+                        "at most " + std::to_string(0x7fffffff / (brick_voxels * words(p))) +
+                            " (with these attributes); take what voxel_triangles() counts");
+  return {};
+}
+
+namespace {
+
+class Voxelization {
+ public:
+  Voxelization(const VoxelizeParams& params, const Profile& profile)
+      : p_(params), profile_(profile), room_(capacities(params)), words_(words(params)), planner_("voxelize") {}
+
+  Result<Plan> plan() && {
+    const std::size_t bricks = static_cast<std::size_t>(cells(p_, brick));
+    const std::size_t sums = static_cast<std::size_t>(room_.bricks) * brick_voxels * static_cast<std::size_t>(words_);
+    const bool exact = p_.merging == VoxelizeMerging::exact;
+    triangles_ = resource("triangles", Format::u32, static_cast<std::size_t>(p_.triangles) * triangle_words, false);
+    materials_ = resource("materials", Format::f32x4, static_cast<std::size_t>(p_.materials) * 2, false);
+    const std::size_t voxels = static_cast<std::size_t>(p_.width) * p_.height * p_.depth;
+    colour_ = resource("colour", p_.format, voxels, true);
+    if (p_.normal) normal_ = resource("normal", p_.format, voxels, true);
+    if (p_.emission) emission_ = resource("emission", p_.format, voxels, true);
+    list_ = resource("bricks", Format::u32, static_cast<std::size_t>(room_.bricks), true);
+    if (p_.fragments > 0)
+      fragments_ = resource("fragments", Format::u32, static_cast<std::size_t>(p_.fragments) * 4, true);
+    counters_ = resource("counters", Format::u32, counter_words, true);
+    slots_ = planner_.scratch(Format::u32, bricks);
+    spans_ = planner_.scratch(Format::u32, (bricks + span - 1) / span);
+    pieces_ = planner_.scratch(Format::u32, static_cast<std::size_t>(room_.pieces) * 2);
+    sums_ = planner_.scratch(Format::u32, sums);
+    carries_ = planner_.scratch(Format::u32, exact ? sums : 1);
+    clear();
+    refine();
+    number();
+    merge();
+    resolve();
+    return std::move(planner_).finish();
+  }
+
+ private:
+  Slot resource(const char* name, Format format, std::size_t count, bool written) {
+    Resource r{name};
+    r.format = format;
+    r.bytes = std::max<std::size_t>(count, 1) * bytes_per_pixel(format);
+    r.written = written;
+    return planner_.resource(r);
+  }
+
+  void clear() {
+    const int bricks = static_cast<int>(cells(p_, brick));
+    const auto invocations = launch(bricks / 64 + 16);
+    planner_.pass("voxelize_clear", "u32", "voxelize clear", invocations, line,
+                  {{"bricks", bricks}, {"stride", stride(invocations)}}, {},
+                  {{"counters", counters_}, {"slots", slots_}});
+    planner_.cost(0, 4.0 * bricks);
+  }
+
+  // Triangles to blocks to bricks; straight to bricks where a grid has few.
+  void refine() {
+    const auto roots = launch(p_.triangles);
+    const bool twice = cells(p_, block) > 1;
+    Planner::Values values{{"width", p_.width}, {"height", p_.height}, {"depth", p_.depth}};
+    Planner::Values from_triangles = values;
+    from_triangles.insert(from_triangles.end(), {{"parents", p_.triangles},
+                                                 {"capacity", twice ? room_.blocks : room_.pieces},
+                                                 {"counter", twice ? count_blocks : count_pieces},
+                                                 {"stride", stride(roots)}});
+    std::vector<std::pair<std::string_view, Slot>> slots{{"triangles", triangles_}, {"counters", counters_}};
+    planner_.cost(0, 48.0 * p_.triangles + 8.0 * room_.pieces);
+    if (!twice) {
+      slots.insert(slots.end(), {{"pieces", pieces_}, {"slots", slots_}});
+      planner_.pass("voxelize_refine", "root_bricks", "voxelize bricks of triangles", roots, line, from_triangles,
+                    {{"SIDE", brick}}, slots);
+      return;
+    }
+    const Slot blocks = planner_.scratch(Format::u32, static_cast<std::size_t>(room_.blocks) * 2);
+    std::vector<std::pair<std::string_view, Slot>> first = slots, second = slots;
+    first.emplace_back("pieces", blocks);
+    planner_.pass("voxelize_refine", "root_blocks", "voxelize blocks of triangles", roots, line, from_triangles,
+                  {{"SIDE", block}}, first);
+    const auto parents = launch(room_.blocks);
+    values.insert(values.end(), {{"parents", room_.blocks},
+                                 {"capacity", room_.pieces},
+                                 {"counter", count_pieces},
+                                 {"stride", stride(parents)}});
+    second.insert(second.end(), {{"parent_list", blocks}, {"pieces", pieces_}, {"slots", slots_}});
+    planner_.pass("voxelize_refine", "bricks", "voxelize bricks of blocks", parents, line, values,
+                  {{"PARENT", block}, {"SIDE", brick}}, second);
+    planner_.cost(0, 16.0 * room_.blocks);
+  }
+
+  void number() {
+    const int bricks = static_cast<int>(cells(p_, brick));
+    const std::array<std::uint32_t, 3> spans{static_cast<std::uint32_t>((bricks + span - 1) / span), 1, 1};
+    planner_.pass("voxelize_scan", "u32", "voxelize count bricks", spans, line, {{"bricks", bricks}}, {},
+                  {{"slots", slots_}, {"sums", spans_}});
+    planner_.pass("voxelize_slots", "u32", "voxelize number bricks", spans, line,
+                  {{"bricks", bricks}, {"capacity", room_.bricks}}, {},
+                  {{"sums", spans_}, {"slots", slots_}, {"brick_list", list_}, {"counters", counters_}});
+    planner_.cost(0, 12.0 * bricks);
+  }
+
+  void merge() {
+    const auto voxels = launch(static_cast<std::int64_t>(room_.bricks) * brick_voxels);
+    const bool exact = p_.merging == VoxelizeMerging::exact;
+    planner_.pass("voxelize_zero", exact ? "exact" : "packed", "voxelize zero", voxels, line,
+                  {{"capacity", room_.bricks}, {"words", words_}, {"stride", stride(voxels)}}, {},
+                  exact ? std::vector<std::pair<std::string_view, Slot>>{{"counters", counters_},
+                                                                         {"sums", sums_},
+                                                                         {"carries", carries_}}
+                        : std::vector<std::pair<std::string_view, Slot>>{{"counters", counters_}, {"sums", sums_}});
+    const auto pieces = launch(room_.pieces);
+    std::vector<std::pair<std::string_view, Slot>> slots{
+        {"triangles", triangles_}, {"materials", materials_}, {"pieces", pieces_},  {"slots", slots_},
+        {"counters", counters_},   {"sums", sums_},           {"carries", carries_}};
+    if (p_.fragments > 0) slots.emplace_back("fragment_list", fragments_);
+    planner_.pass("voxelize", p_.fragments > 0 ? "list" : "plain", "voxelize", pieces, line,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"depth", p_.depth},
+                   {"capacity", room_.pieces},
+                   {"fragments", p_.fragments},
+                   {"emission_unit", emission_unit()},
+                   {"stride", stride(pieces)}},
+                  {{"MODE", static_cast<int>(p_.mode)},
+                   {"MERGE", static_cast<int>(p_.merging)},
+                   {"OPACITY", exact && p_.opacity},
+                   {"NORMAL", p_.normal},
+                   {"EMISSION", p_.emission}},
+                  slots);
+    const double touched = static_cast<double>(room_.bricks) * brick_voxels * words_;
+    planner_.cost(0, 8.0 * room_.pieces + 48.0 * p_.triangles + (exact ? 2 : 1) * 3 * 4.0 * touched);
+  }
+
+  void resolve() {
+    const bool exact = p_.merging == VoxelizeMerging::exact;
+    resolve(colour_, exact ? 0 : 3, exact && p_.opacity ? 4 : 0);
+    if (p_.normal) resolve(normal_, 1, 4 + p_.opacity);
+    if (p_.emission) resolve(emission_, 2, 4 + p_.opacity + 3 * p_.normal);
+  }
+  void resolve(Slot to, int of, int at) {
+    constexpr const char* labels[] = {"voxelize means", "voxelize normals", "voxelize emission", "voxelize unpack"};
+    planner_.pass("voxelize_resolve", name(p_.format), labels[of],
+                  {static_cast<std::uint32_t>((p_.width + brick - 1) / brick), static_cast<std::uint32_t>(p_.height),
+                   static_cast<std::uint32_t>(p_.depth)},
+                  profile_.voxels.workgroup,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"depth", p_.depth},
+                   {"words", words_},
+                   {"at", at},
+                   {"emission_unit", emission_unit()},
+                   {"opacity", p_.opacity}},
+                  {{"OF", of}},
+                  {{"slots", slots_}, {"sums", sums_}, {"carries", carries_}, {"counters", counters_}, {"dst", to}});
+    planner_.cost(0, static_cast<double>(p_.width) * p_.height * p_.depth *
+                         static_cast<double>(bytes_per_pixel(p_.format)));
+  }
+
+  double emission_unit() const { return p_.emission_max / 16384; }
+
+  const VoxelizeParams& p_;
+  const Profile& profile_;
+  const Capacities room_;
+  const int words_;
+  Planner planner_;
+  Slot triangles_, materials_, colour_, normal_, emission_, list_, fragments_, counters_;
+  Slot slots_, spans_, pieces_, sums_, carries_;
+};
+
+}  // namespace
+
+Result<Plan> plan(const VoxelizeParams& p, const Profile& profile) {
+  LUXEL_CHECK(validate(p));
+  return Voxelization(p, profile).plan();
+}
+
+VoxelizeParams voxelize_params(const VoxelGrid& grid, const VoxelTriangles& triangles) {
+  VoxelizeParams p;
+  p.width = grid.width;
+  p.height = grid.height;
+  p.depth = grid.depth;
+  p.triangles = static_cast<int>(triangles.count);
+  p.blocks = static_cast<int>(std::max<std::size_t>(triangles.blocks, 1));
+  p.pieces = static_cast<int>(std::max<std::size_t>(triangles.pieces, 1));
+  p.bricks = static_cast<int>(std::max<std::size_t>(triangles.bricks, 1));
+  return p;
+}
+
+}  // namespace luxel

@@ -1,0 +1,109 @@
+// voxelize: triangle meshes into voxels: which voxels the surface touches, exactly, and the area-weighted means of base
+// colour, opacity, normal and emission there (Crassin and Green, Octree-Based Sparse Voxelization Using the GPU Hardware
+// Rasterizer, 2012; Schwarz and Seidel 2010; Laine 2013).
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <luxel/plan.h>
+
+namespace luxel {
+
+/// A grid of cubic voxels; voxel (0,0,0) has its outer corner at `origin`.
+struct VoxelGrid {
+  std::array<double, 3> origin{0, 0, 0};  // scene units
+  double voxel = 1;                       // side of a voxel in scene units, above 0
+  int width = 0;                          // voxels, 1..2048
+  int height = 0;                         // 1..2048
+  int depth = 0;                          // 1..2048
+};
+
+/// A mesh of the caller's, which is only read.
+struct VoxelMesh {
+  const double* positions = nullptr;        // x, y, z of each vertex
+  std::size_t vertices = 0;
+  const std::uint32_t* indices = nullptr;   // three a triangle, counter-clockwise seen from the side the normal points to
+  std::size_t triangles = 0;
+  const std::uint32_t* materials = nullptr; // of each triangle; null: all 0
+};
+
+/// Triangles as the kernel takes them, and what became of the mesh.
+struct VoxelTriangles {
+  std::vector<std::int32_t> records;  // 12 words a triangle: the resource `triangles`
+  std::size_t count = 0;              // records
+  std::size_t blocks = 0;             // VoxelizeParams.blocks, .pieces and .bricks that suffice
+  std::size_t pieces = 0;
+  std::size_t bricks = 0;
+  std::size_t not_finite = 0;         // triangles skipped for a NaN or an infinity (or too large a number) in a vertex
+  std::size_t bad_index = 0;          // triangles skipped for an index beyond the vertices
+  std::size_t outside = 0;            // triangles left out because they do not touch the grid
+  std::size_t clipped = 0;            // triangles that reached past two grids, and were clipped there
+};
+
+/// Rebases a mesh into a grid in double, g = (position - origin) / voxel, and rounds it to 2^-16 voxel: the only rounding
+/// before the decision which voxels are touched. Shared vertices round alike. Coordinates from -2 to 3 grids (of the
+/// largest extent) pass as they are; triangles beyond are clipped there first, in double. Pure; needs no device.
+/// Errors: invalid_argument, naming field, value and range.
+Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& grid);
+
+/// Which voxels count as touched.
+enum class VoxelizeMode {
+  conservative,  // the closed voxel meets the triangle: 26-separating
+  thin,          // a segment that joins the centres of opposite faces meets it: 6-separating
+  dilated        // the bounding-triangle test of Crassin and Green: covers too much at acute corners; for comparison
+};
+
+/// How triangles share a voxel.
+enum class VoxelizeMerging {
+  exact,           // area-weighted mean in integers: the same bits in any order of the threads
+  moving_average,  // mean in 8 bits a channel by compare-and-swap, its count wraps at 255; depends on timing
+  last_write       // one of the triangles; depends on timing
+};
+
+struct VoxelizeParams {
+  int width = 0;                 // voxels, 1..2048
+  int height = 0;                // 1..2048
+  int depth = 0;                 // 1..2048
+  VoxelizeMode mode = VoxelizeMode::conservative;
+  VoxelizeMerging merging = VoxelizeMerging::exact;
+  Format format = Format::f32x4; // of the volumes: f32x4, f16x4, unorm8x4
+  bool opacity = false;          // materials' opacity goes into coverage; else every touched voxel has coverage 1
+  bool normal = false;           // adds the volume `normal`; exact merging only
+  bool emission = false;         // adds the volume `emission`; exact merging only
+  double emission_max = 1;       // largest emission of a channel; steps of 2^-14 of it are summed. Above 0
+  int triangles = 0;             // records in `triangles`, 0..2^27
+  int materials = 1;             // in `materials`, 1..2^24
+  int blocks = 0;                // capacity in pairs of triangle and block of 64^3 voxels; 0: as many as triangles
+  int pieces = 0;                // capacity in pairs of triangle and brick of 8^3 voxels; 0: four times the triangles
+  int bricks = 0;                // capacity in touched bricks; 0: all of the grid
+  int fragments = 0;             // capacity of `fragments`; 0: no list
+};
+
+/// Words of the resource `counters`. What is needed is counted in full also where the capacity does not hold it; what does
+/// not fit is left out, and nothing is written past an end.
+enum class VoxelizeCount {
+  blocks,      // needed
+  pieces,      // needed
+  bricks,      // needed: bricks that triangles touch
+  fragments,   // needed: pairs of voxel and triangle (0 where no list is asked for)
+  occupied,    // voxels
+  saturated    // times that a count wrapped (moving_average); exact merging holds 2^31 triangles a voxel
+};
+
+/// Resources of the plan: read `triangles` (VoxelTriangles::records), `materials` (f32x4: linear base colour 0..1 and
+/// opacity 0..1, emission and an unused channel, material after material); written `colour` (straight base colour and
+/// coverage, [z][y][x]; occupied where coverage is above 0), `normal` (mean of unit normals, its length carries the
+/// spread; unorm8: n/2 + 1/2) and `emission` where asked for, `bricks` (u32: touched bricks in ascending order, x + (y + z
+/// bricks_y) bricks_x; as many as `counters` says), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
+/// asked for, `counters` (16 u32, see VoxelizeCount). Coverage is the opacity's mean, never below a step of unorm8 or of
+/// 2^-14. Errors: invalid_argument, naming field, value and range.
+Status validate(const VoxelizeParams& params);
+
+/// The passes that voxelize with these parameters on a device of this profile.
+Result<Plan> plan(const VoxelizeParams& params, const Profile& profile);
+
+/// Parameters for triangles in a grid: extents and capacities filled in, `fragments` left 0.
+VoxelizeParams voxelize_params(const VoxelGrid& grid, const VoxelTriangles& triangles);
+
+}  // namespace luxel

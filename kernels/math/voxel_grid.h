@@ -1,0 +1,21 @@
+// What the parts of voxelize agree on: triangle records, blocks and bricks of a grid, counters.
+#define TRIANGLE_WORDS 12   // three vertices in 2^-16 voxel, in lexicographic order; material; triangle of the mesh; turned
+#define BRICK 8             // voxels along a brick's side
+#define BRICK_VOXELS 512
+
+#define COUNT_BLOCKS 0      // pieces of 64^3 and of 8^3 voxels that triangles touch
+#define COUNT_PIECES 1
+#define COUNT_BRICKS 2      // bricks touched
+#define COUNT_FRAGMENTS 3   // pairs of voxel and triangle
+#define COUNT_OCCUPIED 4    // voxels
+#define COUNT_SATURATED 5   // times that a voxel's mean lost its count (moving_average)
+
+FN ivec3 blocks_of(ivec3 extent, int side) { return (extent + (side - 1)) / side; }
+FN int linear_of(ivec3 p, ivec3 extent) { return (p.z * extent.y + p.y) * extent.x + p.x; }
+FN ivec3 position_of(int i, ivec3 extent) {
+    return ivec3(i % extent.x, i / extent.x % extent.y, i / extent.x / extent.y);
+}
+
+// First and last voxel of a grid that a closed span of 2^-16 voxels meets; none where the last lies before the first.
+FN ivec3 first_voxel(ivec3 low) { return max((low - 1) >> 16, ivec3(0, 0, 0)); }
+FN ivec3 last_voxel(ivec3 high, ivec3 extent) { return min(high >> 16, extent - 1); }

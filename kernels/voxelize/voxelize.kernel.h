@@ -1,0 +1,177 @@
+// Which voxels of a brick a triangle touches, and its share in the means of these voxels.
+// conservative: the closed box of the voxel meets the triangle (26-separating). thin: one of the three segments that
+// join the centres of opposite faces meets it (6-separating; Laine, A Topological Approach to Voxelization, 2013).
+// dilated: the box meets the plane, and seen along the dominant axis the triangle, moved outwards by half a pixel's
+// diagonal (Crassin and Green, Octree-Based Sparse Voxelization Using the GPU Hardware Rasterizer, 2012).
+
+FN ivec3 vertex(CTX, int t, int i) {
+    const int at = t * TRIANGLE_WORDS + 3 * i;
+    return ivec3(load(triangles, at), load(triangles, at + 1), load(triangles, at + 2));
+}
+
+FN int dominant_axis(vec3 n) {
+    const vec3 m = abs(n);
+    return m.x >= m.y && m.x >= m.z ? 0 : (m.y >= m.z ? 1 : 2);
+}
+
+FN vec3 in_voxel(ivec3 v, ivec3 voxel) {
+    const ivec3 d = v - voxel * 65536;
+    return vec3(float_of_int(d.x), float_of_int(d.y), float_of_int(d.z)) / 65536.0f;
+}
+
+// 0..1 in steps of 2^-14.
+FN uint steps_of(float v) { return v > 0.0f ? uint(min(v, 1.0f) * 16384.0f + 0.5f) : 0u; }
+
+// Sums have 64 bits: a count of 2^31 triangles fits.
+FN void add(CTX, int at, uint v) {
+    if (v == 0u) return;
+    const uint before = atomic_add(sums, at, v);
+    if (before + v < before) atomic_add(carries, at, 1u);
+}
+
+FN void add_mean(CTX, int voxel, uint weight, vec4 colour, vec3 emission, vec3 normal) {
+    int at = voxel * (4 + OPACITY + 3 * NORMAL + 3 * EMISSION);
+    add(ctx, at, weight);
+    add(ctx, at + 1, weight * steps_of(colour.x));
+    add(ctx, at + 2, weight * steps_of(colour.y));
+    add(ctx, at + 3, weight * steps_of(colour.z));
+    at += 4;
+    if (OPACITY != 0) add(ctx, at, weight * steps_of(colour.w));
+    at += OPACITY;
+    if (NORMAL != 0) {
+        const vec3 biased = 0.5f * normal + vec3(0.5f, 0.5f, 0.5f);
+        add(ctx, at, weight * steps_of(biased.x));
+        add(ctx, at + 1, weight * steps_of(biased.y));
+        add(ctx, at + 2, weight * steps_of(biased.z));
+    }
+    at += 3 * NORMAL;
+    if (EMISSION != 0) {
+        const vec3 share = emission / (16384.0f * params.emission_unit);
+        add(ctx, at, weight * steps_of(share.x));
+        add(ctx, at + 1, weight * steps_of(share.y));
+        add(ctx, at + 2, weight * steps_of(share.z));
+    }
+}
+
+// The mean so far in 8 bits a channel, the fourth counts: C <- (i C + c) / (i + 1). The count wraps at 255.
+FN void move_average(CTX, int voxel, vec4 colour) {
+    uint before = load(sums, voxel);
+    for (;;) {
+        const uint count = before >> 24;
+        uint after = (count + 1u) << 24;
+        if (count == 255u) atomic_add(counters, COUNT_SATURATED, 1u);
+        const float i = float(count);
+        const vec3 mean = (i * vec3(unorm8_value(before & 255u), unorm8_value((before >> 8) & 255u),
+                                    unorm8_value((before >> 16) & 255u)) +
+                           vec3(colour.x, colour.y, colour.z)) / (i + 1.0f);
+        after |= unorm8_bits(mean.x) | (unorm8_bits(mean.y) << 8) | (unorm8_bits(mean.z) << 16);
+        const uint found = atomic_compare_swap(sums, voxel, before, after);
+        if (found == before) return;
+        before = found;
+    }
+}
+
+// Whoever comes last; a share of 0 is kept apart from a voxel that nothing touches.
+FN void write_last(CTX, int voxel, vec4 colour) {
+    const uint after = unorm8_bits(colour.x) | (unorm8_bits(colour.y) << 8) | (unorm8_bits(colour.z) << 16) |
+                       (max(unorm8_bits(colour.w), 1u) << 24);
+    uint before = load(sums, voxel);
+    for (;;) {
+        const uint found = atomic_compare_swap(sums, voxel, before, after);
+        if (found == before) return;
+        before = found;
+    }
+}
+
+#if LIST
+FN void fragment(CTX, ivec3 p, int mesh_triangle) {
+    const uint at = atomic_add(counters, COUNT_FRAGMENTS, 1u);
+    if (at < uint(params.fragments)) {
+        store(fragment_list, 4 * int(at), uint(p.x));
+        store(fragment_list, 4 * int(at) + 1, uint(p.y));
+        store(fragment_list, 4 * int(at) + 2, uint(p.z));
+        store(fragment_list, 4 * int(at) + 3, uint(mesh_triangle));
+    }
+}
+#endif
+
+FN void voxelize_piece(CTX, int t, int brick, int slot) {
+    const ivec3 extent = ivec3(params.width, params.height, params.depth);
+    const ivec3 v0 = vertex(ctx, t, 0);
+    const ivec3 v1 = vertex(ctx, t, 1);
+    const ivec3 v2 = vertex(ctx, t, 2);
+    const ivec3 low = min(v0, min(v1, v2));
+    const ivec3 high = max(v0, max(v1, v2));
+    const ivec3 corner = BRICK * position_of(brick, blocks_of(extent, BRICK));
+    const ivec3 first = max(corner, first_voxel(low));
+    const ivec3 last = min(corner + (BRICK - 1), last_voxel(high, extent));
+
+    ivec4 lines[9];
+    uvec2 n[3];
+    UNROLL for (int axis = 0; axis < 3; ++axis) {
+        const ivec2 p = projected(v0, axis);
+        const ivec2 q = projected(v1, axis);
+        const ivec2 r = projected(v2, axis);
+        n[axis] = double_area(p, q, r);
+        UNROLL for (int i = 0; i < 3; ++i) lines[3 * axis + i] = edge_of(p, q, r, n[axis], i);
+    }
+    const vec3 rough = vec3(float_of_signed_64(n[0]), float_of_signed_64(n[1]), float_of_signed_64(n[2]));
+    const int dominant = dominant_axis(rough);
+
+    const int material = load(triangles, t * TRIANGLE_WORDS + 9);
+    const vec4 colour = load(materials, 2 * material);
+    const vec4 emission = load(materials, 2 * material + 1);
+    vec3 normal = vec3(0.0f, 0.0f, 0.0f);
+    if (NORMAL != 0) {
+        const float size = sqrt(rough.x * rough.x + rough.y * rough.y + rough.z * rough.z);
+        const float turn = (load(triangles, t * TRIANGLE_WORDS + 11) & 1) != 0 ? -1.0f : 1.0f;
+        if (size > 0.0f) normal = turn * rough / size;
+    }
+
+    for (int z = first.z; z <= last.z; ++z)
+        for (int y = first.y; y <= last.y; ++y)
+            for (int x = first.x; x <= last.x; ++x) {
+                const ivec3 p = ivec3(x, y, z);
+                const ivec3 c = 2 * p + 1;
+                bool meets = false;
+                if (MODE == MODE_CONSERVATIVE) {
+                    const ivec3 h = ivec3(1, 1, 1);
+                    meets = plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) && edges_meet(lines, c, h);
+                } else if (MODE == MODE_THIN) {
+                    UNROLL for (int axis = 0; axis < 3; ++axis) {
+                        const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+                        meets = meets || (bounds_meet(low, high, c, h) &&
+                                          plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) &&
+                                          edges_meet(lines, c, h));
+                    }
+                } else {
+                    const ivec3 h = ivec3(1, 1, 1);
+                    meets = plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h);
+                    UNROLL for (int i = 0; i < 9; ++i)
+                        meets = meets && (i / 3 != dominant || edge_meets(lines[i], projected(c, i / 3), ivec2(1, 1)));
+                }
+                if (!meets) continue;
+                const int voxel = slot * BRICK_VOXELS + linear_of(p - corner, ivec3(BRICK, BRICK, BRICK));
+                if (MERGE == MERGE_MOVING_AVERAGE) {
+                    move_average(ctx, voxel, colour);
+                } else if (MERGE == MERGE_LAST_WRITE) {
+                    write_last(ctx, voxel, colour);
+                } else {
+                    const vec4 part = part_in_cube(in_voxel(v0, p), in_voxel(v1, p), in_voxel(v2, p));
+                    const uint weight = max(uint(part.w * 65536.0f + 0.5f), 1u);
+                    add_mean(ctx, voxel, weight, colour, vec3(emission.x, emission.y, emission.z), normal);
+                }
+#if LIST
+                fragment(ctx, p, load(triangles, t * TRIANGLE_WORDS + 10));
+#endif
+            }
+}
+
+KERNEL(voxelize) {
+    const int count = int(min(load(counters, COUNT_PIECES), uint(params.capacity)));
+    for (int i = invocation_x(); i < count; i += params.stride) {
+        const int brick = int(load(pieces, 2 * i + 1));
+        const uint slot = load(slots, brick);
+        if (slot > 0u) voxelize_piece(ctx, int(load(pieces, 2 * i)), brick, int(slot) - 1);
+    }
+}

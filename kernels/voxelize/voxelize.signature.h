@@ -1,0 +1,39 @@
+/* BUILD
+   math: wide_int triangle_box voxel_grid clip
+   module plain: LIST=0
+   module list: LIST=1
+*/
+#define MODE_CONSERVATIVE 0
+#define MODE_THIN 1
+#define MODE_DILATED 2
+#define MERGE_EXACT 0
+#define MERGE_MOVING_AVERAGE 1
+#define MERGE_LAST_WRITE 2
+#define PARAMETERS(_) \
+    _(int, width)            /* voxels of the grid */ \
+    _(int, height) \
+    _(int, depth) \
+    _(int, capacity)         /* pieces that the list holds at most */ \
+    _(int, fragments)        /* that `fragment_list` holds */ \
+    _(float, emission_unit)  /* emission of one step of 2^-14 */ \
+    _(int, stride)           /* invocations */
+#define CONSTANTS(_) \
+    _(0, int, MODE, 0) \
+    _(1, int, MERGE, 0) \
+    _(2, int, OPACITY, 0)   /* 1: a mean of it is asked for; 0: it is 1 everywhere */ \
+    _(3, int, NORMAL, 0)    /* 1: a mean of it is asked for */ \
+    _(4, int, EMISSION, 0)
+#if LIST
+#define LISTED(_) _(WRITE, 7, uint, fragment_list)
+#else
+#define LISTED(_)
+#endif
+#define BINDINGS(_) \
+    _(READ, 0, int, triangles) \
+    _(READ, 1, vec4, materials) \
+    _(READ, 2, uint, pieces) \
+    _(READ, 3, uint, slots) \
+    _(UPDATE, 4, uint, counters) \
+    _(UPDATE, 5, uint, sums) \
+    _(UPDATE, 6, uint, carries) \
+    LISTED(_)

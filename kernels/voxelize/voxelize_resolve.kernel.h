@@ -1,0 +1,46 @@
+// Means from sums; 0 where nothing is. An invocation makes the eight voxels of a brick's row.
+
+FN float sum_of(CTX, int at) { return float_of_64(uvec2(load(sums, at), load(carries, at))); }
+
+// Never below one step: of unorm8, or of 2^-14, in which opacity is summed.
+FN float at_least_a_step(float coverage) { return max(coverage, UNORM != 0 ? 1.0f / 255.0f : 1.0f / 16384.0f); }
+
+FN vec4 mean_of(CTX, int voxel) {
+    const int base = voxel * params.words;
+    if (OF == OF_PACKED) {
+        const uint bits = load(sums, base);
+        const float share = unorm8_value(bits >> 24);
+        if (bits >> 24 == 0u) return vec4(0.0f);
+        return vec4(unorm8_value(bits & 255u), unorm8_value((bits >> 8) & 255u), unorm8_value((bits >> 16) & 255u),
+                    params.opacity != 0 ? share : 1.0f);
+    }
+    const float weight = 16384.0f * sum_of(ctx, base);
+    if (weight == 0.0f) return vec4(0.0f);
+    const int at = base + (OF == OF_COLOUR ? 1 : params.at);
+    const vec3 mean = vec3(sum_of(ctx, at) / weight, sum_of(ctx, at + 1) / weight, sum_of(ctx, at + 2) / weight);
+    if (OF == OF_COLOUR)
+        return vec4(mean.x, mean.y, mean.z,
+                    params.at > 0 ? at_least_a_step(sum_of(ctx, base + params.at) / weight) : 1.0f);
+    if (OF == OF_NORMAL) {
+        if (UNORM != 0) return vec4(mean.x, mean.y, mean.z, 0.0f);  // n/2 + 1/2
+        return vec4(2.0f * mean.x - 1.0f, 2.0f * mean.y - 1.0f, 2.0f * mean.z - 1.0f, 0.0f);
+    }
+    const float scale = 16384.0f * params.emission_unit;
+    return vec4(scale * mean.x, scale * mean.y, scale * mean.z, 0.0f);
+}
+
+KERNEL(voxelize_resolve) {
+    const ivec3 extent = ivec3(params.width, params.height, params.depth);
+    const ivec3 first = ivec3(invocation_x() * BRICK, invocation_y(), invocation_z());
+    if (first.x >= extent.x || first.y >= extent.y || first.z >= extent.z) return;
+    const uint slot = load(slots, linear_of(first / BRICK, blocks_of(extent, BRICK)));
+    const int row = linear_of(first % BRICK, ivec3(BRICK, BRICK, BRICK));
+    uint occupied = 0u;
+    for (int x = 0; x < min(BRICK, extent.x - first.x); ++x) {
+        vec4 mean = vec4(0.0f);
+        if (slot > 0u) mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x);
+        if (mean.w > 0.0f) ++occupied;
+        store_voxel(dst, extent, first + ivec3(x, 0, 0), mean);
+    }
+    if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);
+}

@@ -1,0 +1,26 @@
+/* BUILD
+   math: wide_int voxel_grid
+   module f32x4: PIXEL=f32x4 UNORM=0
+   module f16x4: PIXEL=f16x4 UNORM=0
+   module unorm8x4: PIXEL=unorm8x4 UNORM=1
+*/
+#define OF_COLOUR 0
+#define OF_NORMAL 1
+#define OF_EMISSION 2
+#define OF_PACKED 3   // colour of moving_average and last_write
+#define PARAMETERS(_) \
+    _(int, width)            /* voxels of the grid */ \
+    _(int, height) \
+    _(int, depth) \
+    _(int, words)            /* of a voxel's accumulators */ \
+    _(int, at)               /* first of the three that are read; colour: that of opacity, or 0 for none */ \
+    _(float, emission_unit)  /* emission of one step of 2^-14 */ \
+    _(int, opacity)          /* 1: the fourth channel of packed colour is it; 0: it is 1 wherever there is something */
+#define CONSTANTS(_) \
+    _(0, int, OF, 0)
+#define BINDINGS(_) \
+    _(READ, 0, uint, slots) \
+    _(READ, 1, uint, sums) \
+    _(READ, 2, uint, carries) \
+    _(UPDATE, 3, uint, counters) \
+    _(WRITE, 4, PIXEL, dst)

@@ -1,0 +1,521 @@
+// voxelize: sets of voxels against exact answers, means against clipping in double, the same bits on every execution.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bench/io/array.h"
+#include "tests/support/voxels.h"
+
+namespace luxel {
+namespace {
+
+using Fragment = std::array<std::uint32_t, 4>;  // x, y, z, triangle
+
+std::vector<Fragment> fragments(const Voxelized& result) {
+  const std::vector<std::uint32_t> words = result.words("fragments");
+  std::vector<Fragment> list(std::min<std::size_t>(result.count(VoxelizeCount::fragments), words.size() / 4));
+  for (std::size_t i = 0; i < list.size(); ++i) std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, list[i].begin());
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+std::vector<Fragment> fragments(const std::vector<truth::Voxel>& voxels, const VoxelGrid& grid) {
+  std::vector<Fragment> list;
+  const auto w = static_cast<std::uint32_t>(grid.width), h = static_cast<std::uint32_t>(grid.height);
+  for (std::uint32_t i = 0; i < voxels.size(); ++i)
+    for (const std::uint32_t t : voxels[i].triangles) list.push_back({i % w, i / w % h, i / w / h, t});
+  std::sort(list.begin(), list.end());
+  return list;
+}
+
+VoxelTriangles prepare(const Mesh& mesh, const VoxelGrid& grid) {
+  const Result<VoxelTriangles> triangles = voxel_triangles(mesh.view(), grid);
+  EXPECT_TRUE(triangles.ok()) << triangles.status().message();
+  return triangles.ok() ? triangles.value() : VoxelTriangles{};
+}
+
+void expect_fits(const VoxelTriangles& triangles, const Voxelized& result) {
+  EXPECT_LE(result.count(VoxelizeCount::blocks), triangles.blocks);
+  EXPECT_LE(result.count(VoxelizeCount::pieces), triangles.pieces);
+  EXPECT_LE(result.count(VoxelizeCount::bricks), triangles.bricks);
+}
+
+// The given answers: packed bits, index (x N + y) N + z, made from the OBJ's numbers as doubles.
+struct Bunny {
+  int n, occupied;
+};
+class VoxelizeBunny : public testing::TestWithParam<Bunny> {};
+
+TEST_P(VoxelizeBunny, EqualsTheGivenAnswer) {
+  const auto [n, count] = GetParam();
+  const std::string mesh_file = data_file("stanford_bunny/stanford-bunny.obj");
+  const std::string answer_file = data_file("numeric/vox_bunny_stanford_" + std::to_string(n) + ".npy");
+  if (mesh_file.empty() || answer_file.empty()) GTEST_SKIP() << "no LUXEL_DATA";
+  const Mesh mesh = read_obj(mesh_file);
+  const Result<io::Array> answer = io::read_npy(answer_file);
+  ASSERT_TRUE(answer.ok()) << answer.status().message();
+  VoxelGrid grid = unit_grid(n);
+  grid.origin = {-0.09624699, 0.030747509999999992, -0.08094349};
+  grid.voxel = 0.15881298 / n;
+  const VoxelTriangles triangles = prepare(mesh, grid);
+  ASSERT_EQ(triangles.count, 69451u);
+  const VoxelizeParams params = voxelize_params(grid, triangles);
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles);
+    const std::vector<char> set = occupied(params, result);
+    std::size_t missing = 0, extra = 0;
+    for (int x = 0; x < n; ++x)
+      for (int y = 0; y < n; ++y)
+        for (int z = 0; z < n; ++z) {
+          const std::size_t bit = (static_cast<std::size_t>(x) * n + y) * n + z;
+          const bool expected = answer.value().data[bit / 8] >> (7 - bit % 8) & 1;
+          const bool found = set[(static_cast<std::size_t>(z) * n + y) * n + x];
+          missing += expected && !found;
+          extra += found && !expected;
+        }
+    EXPECT_EQ(missing, 0u) << device;
+    EXPECT_EQ(extra, 0u) << device;
+    EXPECT_EQ(result.count(VoxelizeCount::occupied), static_cast<std::uint32_t>(count)) << device;
+    expect_fits(triangles, result);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, VoxelizeBunny, testing::Values(Bunny{32, 3399}, Bunny{64, 13460}, Bunny{128, 53856}),
+                         [](const auto& info) { return std::to_string(info.param.n); });
+
+// Triangles of every awkward kind in and around a grid of n^3 voxels.
+Mesh awkward(std::uint32_t count, double n, std::uint32_t seed) {
+  Mesh mesh;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    std::uint32_t at = (seed * 1000003u + t) * 32u;
+    const auto next = [&] { return random01(at++); };
+    std::array<double, 9> v;
+    const double reach = t % 16 == 0 ? 2 * n : t % 4 == 0 ? n : 2.5;  // from ±2 grids down to small ones
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double centre = n * next();
+      for (std::size_t i = 0; i < 3; ++i) v[3 * i + k] = centre + reach * (2 * next() - 1);
+    }
+    switch (t / 16 % 8) {
+      case 0: break;
+      case 1: for (double& c : v) c = std::floor(c); break;               // voxel corners
+      case 2: for (double& c : v) c = std::floor(2 * c) / 2; break;       // corners, faces, centres
+      case 3: for (std::size_t i = 0; i < 3; ++i) v[3 * i + t % 3] = std::floor(v[t % 3]); break;  // in a grid plane
+      case 4: for (std::size_t k = 0; k < 3; ++k) v[6 + k] = v[k]; break;                          // a segment
+      case 5: for (std::size_t k = 0; k < 6; ++k) v[3 + k] = v[k % 3]; break;                      // a point
+      case 6: for (std::size_t k = 0; k < 3; ++k) v[6 + k] = 0.25 * v[k] + 0.75 * v[3 + k] + 1e-5 * (next() - 0.5); break;
+      default: for (std::size_t k = 0; k < 3; ++k) v[3 + k] = k == t % 3 ? v[3 + k] : std::floor(v[k] = std::floor(v[k]));
+    }  // 6: slivers; 7: an edge along a grid line
+    mesh.add(v);
+  }
+  return mesh;
+}
+
+class VoxelizeSets : public testing::TestWithParam<VoxelizeMode> {};
+
+TEST_P(VoxelizeSets, OfTenThousandTrianglesAreExact) {
+  const VoxelGrid grid = unit_grid(12);
+  const VoxelTriangles triangles = prepare(awkward(10000, 12, 1), grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  params.mode = GetParam();
+  const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, {{}});
+  const std::vector<Fragment> list = fragments(expected, grid);
+  ASSERT_GT(list.size(), 100000u);
+  params.fragments = static_cast<int>(list.size());
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles);
+    EXPECT_EQ(result.count(VoxelizeCount::fragments), list.size()) << device;
+    EXPECT_EQ(fragments(result), list) << device;
+    EXPECT_EQ(different(occupied(params, result), occupied(expected)), 0u) << device;
+    expect_fits(triangles, result);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, VoxelizeSets, testing::Values(VoxelizeMode::conservative, VoxelizeMode::thin),
+                         [](const auto& info) { return info.param == VoxelizeMode::thin ? "thin" : "conservative"; });
+
+TEST(Voxelize, LargeTrianglesInALargeGridAreExact) {
+  VoxelGrid grid = unit_grid(150);  // three blocks along each axis, no power of two
+  grid.height = 70;
+  const VoxelTriangles triangles = prepare(awkward(64, 150, 2), grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  const std::vector<char> expected = occupied(truth::voxels(triangles, grid, params.mode, {{}}));
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles);
+    EXPECT_EQ(different(occupied(params, result), expected), 0u) << device;
+    expect_fits(triangles, result);
+    std::set<std::uint32_t> bricks;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (expected[i]) bricks.insert(static_cast<std::uint32_t>(i % 150 / 8 + (i / 150 % 70 / 8 + i / 150 / 70 / 8 * 9) * 19));
+    std::vector<std::uint32_t> listed = result.words("bricks");
+    listed.resize(result.count(VoxelizeCount::bricks));
+    EXPECT_EQ(listed, std::vector<std::uint32_t>(bricks.begin(), bricks.end())) << device;
+  }
+}
+
+const std::vector<truth::Material> paints{{{0.8, 0.1, 0.25, 1}, {0, 0, 0}},
+                                          {{0.0, 1.0, 0.5, 0.3}, {12.5, 3, 0}},
+                                          {{0.3, 0.7, 0.9, 0.05}, {0, 0.01, 100}}};
+
+Mesh painted(std::uint32_t count, double n) {
+  Mesh mesh = awkward(count, n, 3);
+  for (std::uint32_t t = 0; t < count; ++t) mesh.materials[t] = t % 3;
+  return mesh;
+}
+
+VoxelizeParams with_everything(VoxelizeParams params) {
+  params.opacity = params.normal = params.emission = true;
+  params.emission_max = 100;
+  return params;
+}
+
+// A weight is within 2^-17 of the area (0.5 steps of 2^-16; what f32 adds: 2^-24 of coordinates up to 2 grids) or is the
+// floor 2^-16; with m triangles a mean of values in 0..1 is off by at most m (2^-17 + 2^-18) / area, and by half a step
+// 2^-14 of the values themselves and f32.
+double mean_bound(const truth::Voxel& v) {
+  return static_cast<double>(v.triangles.size()) * (0x1p-17 + 0x1p-18) / v.area + 0x1p-15 + 0x1p-20;
+}
+
+TEST(Voxelize, MeansFollowClippedAreas) {
+  const VoxelGrid grid = unit_grid(13);
+  const VoxelTriangles triangles = prepare(painted(400, 13), grid);
+  const VoxelizeParams params = with_everything(voxelize_params(grid, triangles));
+  const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, paints);
+  std::vector<std::string> devices = test_devices();
+  devices.push_back("cpu:double");
+  for (const std::string& device : devices) {
+    Context& context = test_context(device);
+    const Voxelized result = voxelize(context, params, triangles, paints);
+    const bool real64 = context.real64();
+    const std::vector<double> colour = decode(params.format, result.bytes.at("colour"), real64);
+    const std::vector<double> normal = decode(params.format, result.bytes.at("normal"), real64);
+    const std::vector<double> emission = decode(params.format, result.bytes.at("emission"), real64);
+    double worst = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const truth::Voxel& v = expected[i];
+      const double bound = v.touched ? mean_bound(v) : 0;
+      const auto within = [&](double a, double b, double scale) {
+        EXPECT_LE(std::fabs(a - b), scale * bound) << device << " voxel " << i;
+        if (v.touched) worst = std::max(worst, std::fabs(a - b) / (scale * bound));
+      };
+      within(colour[4 * i + 3], v.touched ? v.opacity : 0, 1);
+      for (std::size_t k = 0; k < 3; ++k) {
+        within(colour[4 * i + k], v.colour[k], 1);
+        within(normal[4 * i + k], v.normal[k], 2);
+        within(emission[4 * i + k], v.emission[k], 100);
+      }
+    }
+    EXPECT_GT(worst, 0) << "nothing was compared";
+  }
+}
+
+TEST(Voxelize, BitsAreTheSameOnEveryDeviceAndRunAfterRun) {
+  const VoxelGrid grid = unit_grid(37);
+  const VoxelTriangles triangles = prepare(painted(1500, 37), grid);
+  for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4}) {
+    VoxelizeParams params = with_everything(voxelize_params(grid, triangles));
+    params.format = format;
+    Voxelized first;
+    for (const std::string& device : test_devices())
+      for (int run = 0; run < 2; ++run) {
+        const Voxelized result = voxelize(test_context(device), params, triangles, paints);
+        if (first.bytes.empty()) first = result;
+        for (const char* const name : {"colour", "normal", "emission"})
+          EXPECT_EQ(result.bytes.at(name), first.bytes.at(name)) << device << " " << name << " " << luxel::name(format);
+        EXPECT_EQ(result.counters, first.counters) << device;
+      }
+  }
+}
+
+TEST(Voxelize, VertexOrderChangesNothingAndWindingTurnsNormals) {
+  const VoxelGrid grid = unit_grid(16);
+  const Mesh mesh = painted(300, 16);
+  const auto turned = [&](std::array<std::size_t, 3> order) {
+    Mesh other = mesh;
+    for (std::size_t t = 0; t < mesh.triangles(); ++t)
+      for (std::size_t i = 0; i < 3; ++i) other.indices[3 * t + i] = mesh.indices[3 * t + order[i]];
+    return prepare(other, grid);
+  };
+  const VoxelTriangles plain = prepare(mesh, grid), rotated = turned({1, 2, 0}), flipped = turned({0, 2, 1});
+  const VoxelizeParams params = with_everything(voxelize_params(grid, plain));
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    const Voxelized a = voxelize(context, params, plain, paints), b = voxelize(context, params, rotated, paints),
+                    c = voxelize(context, params, flipped, paints);
+    EXPECT_EQ(a.bytes, b.bytes) << device;
+    EXPECT_EQ(a.bytes.at("colour"), c.bytes.at("colour")) << device;
+    const std::vector<double> n = decode(params.format, a.bytes.at("normal")), m = decode(params.format, c.bytes.at("normal"));
+    for (std::size_t i = 0; i < n.size(); ++i) ASSERT_NEAR(n[i], -m[i], 0x1p-13) << device;  // a step of 2^-14, twice
+  }
+}
+
+TEST(Voxelize, NormalsPointToWhereTheTriangleIsCounterClockwise) {
+  Mesh mesh;
+  mesh.add({1, 1, 2.5, 7, 1, 2.5, 1, 7, 2.5});  // seen from +z
+  const VoxelGrid grid = unit_grid(8);
+  const VoxelTriangles triangles = prepare(mesh, grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  params.normal = true;
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles);
+    const std::vector<double> normal = decode(params.format, result.bytes.at("normal"));
+    const std::size_t at = 4 * ((2 * 8 + 2) * 8 + 2);
+    EXPECT_EQ(normal[at], 0) << device;
+    EXPECT_EQ(normal[at + 1], 0) << device;
+    EXPECT_EQ(normal[at + 2], 1) << device;
+  }
+}
+
+// Voxels that a walk through faces (6) or through faces, edges and corners (26) from outside does not reach.
+std::size_t not_reached(const std::vector<char>& set, int n, bool by_corners) {
+  std::vector<char> seen(set);
+  std::vector<std::array<int, 3>> front{{0, 0, 0}};
+  const auto at = [&](const std::array<int, 3>& p) { return (static_cast<std::size_t>(p[2]) * n + p[1]) * n + p[0]; };
+  EXPECT_FALSE(set[0]);
+  seen[0] = 1;
+  while (!front.empty()) {
+    const auto p = front.back();
+    front.pop_back();
+    for (int d = 0; d < 27; ++d) {
+      const std::array<int, 3> q{p[0] + d % 3 - 1, p[1] + d / 3 % 3 - 1, p[2] + d / 9 - 1};
+      const int steps = std::abs(q[0] - p[0]) + std::abs(q[1] - p[1]) + std::abs(q[2] - p[2]);
+      if (steps == 0 || (steps > 1 && !by_corners)) continue;
+      if (std::any_of(q.begin(), q.end(), [&](int c) { return c < 0 || c >= n; }) || seen[at(q)]) continue;
+      seen[at(q)] = 1;
+      front.push_back(q);
+    }
+  }
+  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 0));
+}
+
+TEST(Voxelize, ClosedMeshesStayClosed) {
+  const int n = 40;
+  const VoxelGrid grid = unit_grid(n);
+  for (const double radius : {4.0, 11.3, 18.0}) {
+    const Mesh ball = icosphere({20, 20, 20}, radius, 3);
+    Mesh cube;  // its sides lie in grid planes
+    for (int f = 0; f < 12; ++f) {
+      const int axis = f / 4;
+      const double side = f / 2 % 2 ? 20 + std::floor(radius) : 20 - std::floor(radius);
+      const double lo = 20 - std::floor(radius), hi = 20 + std::floor(radius);
+      std::array<double, 9> v;
+      const double us[2][3] = {{lo, hi, lo}, {hi, hi, lo}}, ws[2][3] = {{lo, lo, hi}, {lo, hi, hi}};
+      for (int i = 0; i < 3; ++i) {
+        v[static_cast<std::size_t>(3 * i + axis)] = side;
+        v[static_cast<std::size_t>(3 * i + (axis + 1) % 3)] = us[f % 2][i];
+        v[static_cast<std::size_t>(3 * i + (axis + 2) % 3)] = ws[f % 2][i];
+      }
+      cube.add(v);
+    }
+    for (const Mesh* mesh : {&ball, static_cast<const Mesh*>(&cube)})
+      for (const VoxelizeMode mode : {VoxelizeMode::conservative, VoxelizeMode::thin}) {
+        const VoxelTriangles triangles = prepare(*mesh, grid);
+        VoxelizeParams params = voxelize_params(grid, triangles);
+        params.mode = mode;
+        for (const std::string& device : test_devices()) {
+          const std::vector<char> set = occupied(params, voxelize(test_context(device), params, triangles));
+          const std::size_t inside = not_reached(set, n, mode == VoxelizeMode::conservative);
+          EXPECT_GT(static_cast<double>(inside), 2 * std::pow(radius - 2, 3)) << device << " radius " << radius;
+        }
+      }
+  }
+}
+
+TEST(Voxelize, TrianglesFarLargerThanTheGrid) {
+  // Ten thousand grids wide, through y = 5.5: one layer; and another in the grid plane y = 16 = N: the last layer.
+  for (const double y : {5.5, 16.0, 0.0, -0.0, 16.5}) {
+    Mesh mesh;
+    mesh.add({-80000, y, -80000, 80000, y, -80000, 0, y, 160000});
+    const VoxelGrid grid = unit_grid(16);
+    const VoxelTriangles triangles = prepare(mesh, grid);
+    EXPECT_EQ(triangles.clipped, y <= 16 ? 1u : 0u);
+    EXPECT_EQ(triangles.outside, y <= 16 ? 0u : 1u);
+    const VoxelizeParams params = voxelize_params(grid, triangles);
+    for (const std::string& device : test_devices()) {
+      const std::vector<char> set = occupied(params, voxelize(test_context(device), params, triangles));
+      for (std::size_t i = 0; i < set.size(); ++i) {
+        const int layer = static_cast<int>(i) / 16 % 16;
+        const bool expected = y == 5.5 ? layer == 5 : y == 16 ? layer == 15 : y == 0 && layer == 0;
+        ASSERT_EQ(set[i] != 0, expected) << device << " y " << y << " voxel " << i;
+      }
+    }
+  }
+}
+
+TEST(Voxelize, NeighboursStayClosedWhereTheyAreClipped) {
+  // Two triangles share an edge that leaves the clipping cube; whichever way they are written, the edge's points agree.
+  Mesh mesh;
+  mesh.add({-900.3, 3.7, -700.9, 800.1, 9.2, 654.3, -100.7, 60000.5, 3.3});
+  mesh.add({800.1, 9.2, 654.3, -900.3, 3.7, -700.9, 33.1, -70000.2, 9.9});
+  const VoxelTriangles triangles = prepare(mesh, unit_grid(32));
+  std::set<std::array<std::int32_t, 3>> corners[2];
+  for (std::size_t i = 0; i < triangles.count; ++i)
+    for (std::size_t v = 0; v < 3; ++v) {
+      const std::int32_t* const at = triangles.records.data() + 12 * i + 3 * v;
+      corners[triangles.records[12 * i + 10]].insert({at[0], at[1], at[2]});
+    }
+  std::size_t shared = 0;
+  for (const auto& c : corners[0]) shared += corners[1].count(c);
+  EXPECT_EQ(shared, 2u) << "both ends of the clipped edge";
+}
+
+TEST(Voxelize, ShiftedByAMillionVoxelsIsTheSame) {
+  const Mesh mesh = icosphere({8, 8, 8}, 6, 2);
+  Mesh far = mesh;
+  for (std::size_t i = 0; i < far.positions.size(); ++i) far.positions[i] = far.positions[i] * 0.125 + 1e6;
+  VoxelGrid grid = unit_grid(16), far_grid = grid;
+  far_grid.origin = {1e6, 1e6, 1e6};
+  far_grid.voxel = 0.125;
+  const VoxelTriangles near = prepare(mesh, grid), there = prepare(far, far_grid);
+  // 1e6 has an ulp of 2^-33: 2^-14 of a unit of 2^-16 voxel, so that hardly a vertex rounds otherwise.
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < near.records.size(); ++i) {
+    ASSERT_LE(std::abs(near.records[i] - there.records[i]), 1);
+    moved += near.records[i] != there.records[i];
+  }
+  EXPECT_LE(moved, 2u);
+}
+
+TEST(Voxelize, WhatCannotBeUsedIsCountedAndSkipped) {
+  const double nan = std::nan(""), infinity = HUGE_VAL;
+  Mesh mesh;
+  mesh.add({1, 1, 1, 2, 1, 1, 1, 2, 1});
+  mesh.add({1, 1, 1, nan, 1, 1, 1, 2, 1});
+  mesh.add({1, 1, 1, 2, infinity, 1, 1, 2, 1});
+  mesh.add({1, 1, 1, 2, 1, -infinity, 1, 2, 1});
+  mesh.add({1, 1, 1, 1e200, 1, 1, 1, 2, 1});
+  mesh.add({100, 1, 1, 102, 1, 1, 101, 2, 1});
+  mesh.indices.insert(mesh.indices.end(), {0, 1, 0xffffffffu});
+  mesh.indices.insert(mesh.indices.end(), {18, 1, 2});  // one beyond the vertices
+  mesh.materials.resize(mesh.triangles());
+  const VoxelTriangles triangles = prepare(mesh, unit_grid(8));
+  EXPECT_EQ(triangles.count, 1u);
+  EXPECT_EQ(triangles.not_finite, 4u);
+  EXPECT_EQ(triangles.bad_index, 2u);
+  EXPECT_EQ(triangles.outside, 1u);
+}
+
+TEST(Voxelize, AnEmptyMeshIsAnEmptyGrid) {
+  const VoxelGrid grid = unit_grid(9);
+  const VoxelTriangles triangles = prepare({}, grid);
+  const VoxelizeParams params = voxelize_params(grid, triangles);
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles);
+    EXPECT_EQ(result.bytes.at("colour"), Bytes(9 * 9 * 9 * 16, 0)) << device;
+    EXPECT_EQ(result.counters, (std::array<std::uint32_t, 16>{})) << device;
+  }
+}
+
+TEST(VoxelizeFull, AMillionTrianglesInOneVoxelDoNotWrap) {
+  Mesh mesh;
+  for (int i = 0; i < 1000000; ++i) mesh.add({1, 1, 1.5, 2, 1, 1.5, 1, 2, 1.5}, i % 4 == 0 ? 1 : 0);
+  VoxelGrid grid = unit_grid(3);
+  VoxelTriangles triangles = prepare(mesh, grid);
+  const VoxelizeParams params = voxelize_params(grid, triangles);
+  const std::vector<truth::Material> two{{{1, 0, 0.5, 1}, {}}, {{0, 1, 0.5, 1}, {}}};
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize(test_context(device), params, triangles, two);
+    const std::vector<double> colour = decode(params.format, result.bytes.at("colour"));
+    const std::size_t at = 4 * ((1 * 3 + 1) * 3 + 1);
+    EXPECT_EQ(colour[at], 0.75) << device;
+    EXPECT_EQ(colour[at + 1], 0.25) << device;
+    EXPECT_EQ(colour[at + 2], 0.5) << device;
+    EXPECT_EQ(result.count(VoxelizeCount::saturated), 0u) << device;
+  }
+}
+
+TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
+  const VoxelGrid grid = unit_grid(80);
+  const VoxelTriangles triangles = prepare(painted(500, 80), grid);
+  VoxelizeParams enough = voxelize_params(grid, triangles);
+  enough.fragments = 1 << 21;
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    const Voxelized whole = voxelize(context, enough, triangles, paints);
+    ASSERT_LE(whole.count(VoxelizeCount::fragments), 1u << 21);
+    for (const auto which : {VoxelizeCount::blocks, VoxelizeCount::pieces, VoxelizeCount::bricks, VoxelizeCount::fragments}) {
+      VoxelizeParams few = enough;
+      const int room = static_cast<int>(whole.count(which)) / 3;
+      (which == VoxelizeCount::blocks ? few.blocks : which == VoxelizeCount::pieces ? few.pieces
+       : which == VoxelizeCount::bricks ? few.bricks : few.fragments) = room;
+      const Voxelized part = voxelize(context, few, triangles, paints);  // looks behind the ends
+      EXPECT_EQ(part.count(which), whole.count(which)) << device << " " << static_cast<int>(which);
+      if (which != VoxelizeCount::fragments) continue;
+      EXPECT_EQ(part.bytes.at("colour"), whole.bytes.at("colour")) << device;
+    }
+  }
+}
+
+TEST(Voxelize, OtherMergingsTouchTheSameVoxels) {
+  const VoxelGrid grid = unit_grid(24);
+  Mesh mesh = icosphere({12, 12, 12}, 10, 2);
+  const VoxelTriangles triangles = prepare(mesh, grid);
+  const VoxelizeParams exact = voxelize_params(grid, triangles);
+  const std::vector<truth::Material> grey{{{0.2, 0.4, 0.6, 1}, {}}};
+  for (const std::string& device : test_devices()) {
+    const std::vector<char> set = occupied(exact, voxelize(test_context(device), exact, triangles, grey));
+    for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
+      VoxelizeParams params = exact;
+      params.merging = merging;
+      const Voxelized result = voxelize(test_context(device), params, triangles, grey);
+      EXPECT_EQ(different(occupied(params, result), set), 0u) << device;
+      const std::vector<double> colour = decode(params.format, result.bytes.at("colour"));
+      for (std::size_t i = 0; i < set.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)  // 0.2, 0.4, 0.6 are steps of 8 bits
+          ASSERT_NEAR(colour[4 * i + k], set[i] ? 0.2 * static_cast<double>(k + 1) : 0, 1e-6) << device;
+    }
+  }
+}
+
+TEST(Voxelize, DilatedCoversMoreThanConservative) {
+  const VoxelGrid grid = unit_grid(32);
+  Mesh mesh;
+  mesh.add({2, 2, 5, 30, 3, 11, 30, 2, 12});  // an acute corner
+  const VoxelTriangles triangles = prepare(mesh, grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  for (const std::string& device : test_devices()) {
+    params.mode = VoxelizeMode::conservative;
+    const std::vector<char> exact = occupied(params, voxelize(test_context(device), params, triangles));
+    params.mode = VoxelizeMode::dilated;
+    const std::vector<char> more = occupied(params, voxelize(test_context(device), params, triangles));
+    std::size_t missing = 0, extra = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+      missing += exact[i] && !more[i];
+      extra += more[i] && !exact[i];
+    }
+    EXPECT_EQ(missing, 0u) << device;
+    EXPECT_GT(extra, 0u) << device;
+  }
+}
+
+TEST(Voxelize, RefusesWhatIsOutOfRange) {
+  VoxelizeParams good;
+  good.width = good.height = good.depth = 16;
+  EXPECT_TRUE(validate(good).ok());
+  const auto message = [&](auto change) {
+    VoxelizeParams p = good;
+    change(p);
+    return validate(p).message();
+  };
+  using P = VoxelizeParams;
+  EXPECT_EQ(message([](P& p) { p.width = 0; }), "VoxelizeParams.width is 0; expected 1..2048");
+  EXPECT_EQ(message([](P& p) { p.height = 2049; }), "VoxelizeParams.height is 2049; expected 1..2048");
+  EXPECT_EQ(message([](P& p) { p.depth = -1; }), "VoxelizeParams.depth is -1; expected 1..2048");
+  EXPECT_EQ(message([](P& p) { p.format = Format::f32x1; }),
+            "VoxelizeParams.format is f32x1; expected f32x4, f16x4 or unorm8x4");
+  EXPECT_EQ(message([](P& p) { p.emission_max = std::nan(""); }),
+            "VoxelizeParams.emission_max is nan; expected 1e-30..1e+30");
+  EXPECT_EQ(message([](P& p) { p.materials = 0; }), "VoxelizeParams.materials is 0; expected 1..16777216");
+  EXPECT_EQ(message([](P& p) { p.merging = VoxelizeMerging::last_write, p.normal = true; }),
+            "VoxelizeParams.normal is true; expected false unless merging is exact");
+  EXPECT_NE(message([](P& p) { p.width = p.height = p.depth = 2048; }), "");
+  VoxelGrid grid = unit_grid(8);
+  grid.voxel = 0;
+  EXPECT_EQ(voxel_triangles({}, grid).status().message(), "VoxelGrid.voxel is 0; expected a finite number above 0");
+  grid = unit_grid(0);
+  EXPECT_EQ(voxel_triangles({}, grid).status().message(), "VoxelGrid.width is 0; expected 1..2048");
+}
+
+}  // namespace
+}  // namespace luxel
