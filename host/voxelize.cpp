@@ -35,6 +35,26 @@ int words(const VoxelizeParams& p) {
   return p.merging == VoxelizeMerging::exact ? 4 + p.opacity + 3 * p.normal + 3 * p.emission : 1;
 }
 
+std::array<int, 3> last_of(const VoxelizeParams& p) {
+  const std::array<int, 3> extent{p.width, p.height, p.depth};
+  std::array<int, 3> last = p.last;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (last[k] == -1) last[k] = extent[k] - 1;
+  return last;
+}
+
+// Parameters that several parts have: the grid, and the region of it.
+Planner::Values grid_values(const VoxelizeParams& p) {
+  const std::array<int, 3> last = last_of(p);
+  return {{"width", p.width},      {"height", p.height},    {"depth", p.depth},
+          {"first_x", p.first[0]}, {"first_y", p.first[1]}, {"first_z", p.first[2]},
+          {"last_x", last[0]},     {"last_y", last[1]},     {"last_z", last[2]}};
+}
+Planner::Values operator+(Planner::Values a, const Planner::Values& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
 std::array<std::uint32_t, 3> launch(std::int64_t items) {
   return {static_cast<std::uint32_t>(std::clamp<std::int64_t>(items, 1, most_invocations)), 1, 1};
 }
@@ -49,6 +69,11 @@ Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.width", p.width, 1, 2048));
   LUXEL_CHECK(check_range("VoxelizeParams.height", p.height, 1, 2048));
   LUXEL_CHECK(check_range("VoxelizeParams.depth", p.depth, 1, 2048));
+  const int extent[] = {p.width, p.height, p.depth};
+  for (std::size_t k = 0; k < 3; ++k) {
+    LUXEL_CHECK(check_range("VoxelizeParams.first", p.first[k], 0, extent[k] - 1));
+    if (p.last[k] != -1) LUXEL_CHECK(check_range("VoxelizeParams.last", p.last[k], p.first[k], extent[k] - 1));
+  }
   LUXEL_CHECK(check_range("VoxelizeParams.mode", static_cast<int>(p.mode), 0, 2));
   LUXEL_CHECK(check_range("VoxelizeParams.merging", static_cast<int>(p.merging), 0, 2));
   if (p.format != Format::f32x4 && p.format != Format::f16x4 && p.format != Format::unorm8x4)
@@ -67,6 +92,11 @@ Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.pieces", p.pieces, 0, 1 << 28));
   LUXEL_CHECK(check_range("VoxelizeParams.bricks", p.bricks, 0, 1 << 24));
   LUXEL_CHECK(check_range("VoxelizeParams.fragments", p.fragments, 0, 1 << 28));
+  LUXEL_CHECK(check_range("VoxelizeParams.vertices", p.vertices, 0, 1 << 28));
+  for (const double o : p.origin) LUXEL_CHECK(check_range("VoxelizeParams.origin", o, -1e30, 1e30));
+  LUXEL_CHECK(check_range("VoxelizeParams.voxel", p.voxel, 1e-30, 1e30));
+  if (p.device_materials && !p.device_vertices)
+    return out_of_range("VoxelizeParams.device_materials", "true", "false without device_vertices");
   if (static_cast<double>(p.width) * p.height * p.depth > 0x7fffffff)
     return out_of_range("VoxelizeParams.depth", p.depth, "width x height x depth of at most 2147483647");
   const std::int64_t bricks = capacities(p).bricks;
@@ -88,7 +118,15 @@ class Voxelization {
     const std::size_t bricks = static_cast<std::size_t>(cells(p_, brick));
     const std::size_t sums = static_cast<std::size_t>(room_.bricks) * brick_voxels * static_cast<std::size_t>(words_);
     const bool exact = p_.merging == VoxelizeMerging::exact;
-    triangles_ = resource("triangles", Format::u32, static_cast<std::size_t>(p_.triangles) * triangle_words, false);
+    const std::size_t triangles = static_cast<std::size_t>(p_.triangles);
+    if (p_.device_vertices) {
+      positions_ = resource("positions", Format::f32x1, static_cast<std::size_t>(p_.vertices) * 3, false);
+      indices_ = resource("indices", Format::u32, triangles * 3, false);
+      if (p_.device_materials) chosen_ = resource("triangle_materials", Format::u32, triangles, false);
+      triangles_ = planner_.scratch(Format::u32, std::max<std::size_t>(triangles, 1) * triangle_words);
+    } else {
+      triangles_ = resource("triangles", Format::u32, triangles * triangle_words, false);
+    }
     materials_ = resource("materials", Format::f32x4, static_cast<std::size_t>(p_.materials) * 2, false);
     const std::size_t voxels = static_cast<std::size_t>(p_.width) * p_.height * p_.depth;
     colour_ = resource("colour", p_.format, voxels, true);
@@ -104,6 +142,7 @@ class Voxelization {
     sums_ = planner_.scratch(Format::u32, sums);
     carries_ = planner_.scratch(Format::u32, exact ? sums : 1);
     clear();
+    if (p_.device_vertices) round();
     refine();
     number();
     merge();
@@ -129,16 +168,40 @@ class Voxelization {
     planner_.cost(0, 4.0 * bricks);
   }
 
+  void round() {
+    const auto invocations = launch(p_.triangles);
+    const double largest = std::max({p_.width, p_.height, p_.depth});
+    const auto rest = [&](std::size_t k) { return p_.origin[k] - static_cast<float>(p_.origin[k]); };
+    std::vector<std::pair<std::string_view, Slot>> slots{
+        {"positions", positions_}, {"indices", indices_}, {"records", triangles_}, {"counters", counters_}};
+    if (p_.device_materials) slots.emplace_back("material_list", chosen_);
+    planner_.pass("voxelize_round", p_.device_materials ? "materials" : "plain", "voxelize round vertices", invocations,
+                  line,
+                  {{"triangles", p_.triangles},
+                   {"vertices", p_.vertices},
+                   {"origin_x", static_cast<float>(p_.origin[0])},
+                   {"origin_y", static_cast<float>(p_.origin[1])},
+                   {"origin_z", static_cast<float>(p_.origin[2])},
+                   {"rest_x", rest(0)},
+                   {"rest_y", rest(1)},
+                   {"rest_z", rest(2)},
+                   {"scale", 65536 / p_.voxel},
+                   {"low", -2 * 65536 * largest},
+                   {"high", 3 * 65536 * largest},
+                   {"stride", stride(invocations)}},
+                  {}, slots);
+    planner_.cost(0, 12.0 * p_.vertices + 60.0 * p_.triangles);
+  }
+
   // Triangles to blocks to bricks; straight to bricks where a grid has few.
   void refine() {
     const auto roots = launch(p_.triangles);
     const bool twice = cells(p_, block) > 1;
-    Planner::Values values{{"width", p_.width}, {"height", p_.height}, {"depth", p_.depth}};
-    Planner::Values from_triangles = values;
-    from_triangles.insert(from_triangles.end(), {{"parents", p_.triangles},
-                                                 {"capacity", twice ? room_.blocks : room_.pieces},
-                                                 {"counter", twice ? count_blocks : count_pieces},
-                                                 {"stride", stride(roots)}});
+    const Planner::Values from_triangles = grid_values(p_) + Planner::Values{
+        {"parents", p_.triangles},
+        {"capacity", twice ? room_.blocks : room_.pieces},
+        {"counter", twice ? count_blocks : count_pieces},
+        {"stride", stride(roots)}};
     std::vector<std::pair<std::string_view, Slot>> slots{{"triangles", triangles_}, {"counters", counters_}};
     planner_.cost(0, 48.0 * p_.triangles + 8.0 * room_.pieces);
     if (!twice) {
@@ -153,12 +216,12 @@ class Voxelization {
     planner_.pass("voxelize_refine", "root_blocks", "voxelize blocks of triangles", roots, line, from_triangles,
                   {{"SIDE", block}}, first);
     const auto parents = launch(room_.blocks);
-    values.insert(values.end(), {{"parents", room_.blocks},
-                                 {"capacity", room_.pieces},
-                                 {"counter", count_pieces},
-                                 {"stride", stride(parents)}});
+    const Planner::Values from_blocks = grid_values(p_) + Planner::Values{{"parents", room_.blocks},
+                                                                          {"capacity", room_.pieces},
+                                                                          {"counter", count_pieces},
+                                                                          {"stride", stride(parents)}};
     second.insert(second.end(), {{"parent_list", blocks}, {"pieces", pieces_}, {"slots", slots_}});
-    planner_.pass("voxelize_refine", "bricks", "voxelize bricks of blocks", parents, line, values,
+    planner_.pass("voxelize_refine", "bricks", "voxelize bricks of blocks", parents, line, from_blocks,
                   {{"PARENT", block}, {"SIDE", brick}}, second);
     planner_.cost(0, 16.0 * room_.blocks);
   }
@@ -189,13 +252,11 @@ class Voxelization {
         {"counters", counters_},   {"sums", sums_},           {"carries", carries_}};
     if (p_.fragments > 0) slots.emplace_back("fragment_list", fragments_);
     planner_.pass("voxelize", p_.fragments > 0 ? "list" : "plain", "voxelize", pieces, line,
-                  {{"width", p_.width},
-                   {"height", p_.height},
-                   {"depth", p_.depth},
-                   {"capacity", room_.pieces},
-                   {"fragments", p_.fragments},
-                   {"emission_unit", emission_unit()},
-                   {"stride", stride(pieces)}},
+                  grid_values(p_) + Planner::Values{{"materials", p_.materials},
+                                                    {"capacity", room_.pieces},
+                                                    {"fragments", p_.fragments},
+                                                    {"emission_unit", emission_unit()},
+                                                    {"stride", stride(pieces)}},
                   {{"MODE", static_cast<int>(p_.mode)},
                    {"MERGE", static_cast<int>(p_.merging)},
                    {"OPACITY", exact && p_.opacity},
@@ -214,21 +275,21 @@ class Voxelization {
   }
   void resolve(Slot to, int of, int at) {
     constexpr const char* labels[] = {"voxelize means", "voxelize normals", "voxelize emission", "voxelize unpack"};
+    const std::array<int, 3> last = last_of(p_);
     planner_.pass("voxelize_resolve", name(p_.format), labels[of],
-                  {static_cast<std::uint32_t>((p_.width + brick - 1) / brick), static_cast<std::uint32_t>(p_.height),
-                   static_cast<std::uint32_t>(p_.depth)},
+                  {static_cast<std::uint32_t>(last[0] / brick - p_.first[0] / brick + 1),
+                   static_cast<std::uint32_t>(last[1] - p_.first[1] + 1),
+                   static_cast<std::uint32_t>(last[2] - p_.first[2] + 1)},
                   profile_.voxels.workgroup,
-                  {{"width", p_.width},
-                   {"height", p_.height},
-                   {"depth", p_.depth},
-                   {"words", words_},
-                   {"at", at},
-                   {"emission_unit", emission_unit()},
-                   {"opacity", p_.opacity}},
+                  grid_values(p_) + Planner::Values{{"words", words_},
+                                                    {"at", at},
+                                                    {"emission_unit", emission_unit()},
+                                                    {"opacity", p_.opacity}},
                   {{"OF", of}},
                   {{"slots", slots_}, {"sums", sums_}, {"carries", carries_}, {"counters", counters_}, {"dst", to}});
-    planner_.cost(0, static_cast<double>(p_.width) * p_.height * p_.depth *
-                         static_cast<double>(bytes_per_pixel(p_.format)));
+    double voxels = 1;
+    for (std::size_t k = 0; k < 3; ++k) voxels *= last[k] - p_.first[k] + 1;
+    planner_.cost(0, voxels * static_cast<double>(bytes_per_pixel(p_.format)));
   }
 
   double emission_unit() const { return p_.emission_max / 16384; }
@@ -238,6 +299,7 @@ class Voxelization {
   const Capacities room_;
   const int words_;
   Planner planner_;
+  Slot positions_, indices_, chosen_;
   Slot triangles_, materials_, colour_, normal_, emission_, list_, fragments_, counters_;
   Slot slots_, spans_, pieces_, sums_, carries_;
 };
@@ -258,6 +320,8 @@ VoxelizeParams voxelize_params(const VoxelGrid& grid, const VoxelTriangles& tria
   p.blocks = static_cast<int>(std::max<std::size_t>(triangles.blocks, 1));
   p.pieces = static_cast<int>(std::max<std::size_t>(triangles.pieces, 1));
   p.bricks = static_cast<int>(std::max<std::size_t>(triangles.bricks, 1));
+  p.origin = grid.origin;
+  p.voxel = grid.voxel;
   return p;
 }
 

@@ -6,10 +6,15 @@
 #include <set>
 
 #include "bench/io/array.h"
+#include "tests/cases/voxelize_support.h"
 #include "tests/support/voxels.h"
 
 namespace luxel {
 namespace {
+
+using cases::awkward_mesh;
+using cases::Mesh;
+using cases::unit_grid;
 
 using Fragment = std::array<std::uint32_t, 4>;  // x, y, z, triangle
 
@@ -17,15 +22,6 @@ std::vector<Fragment> fragments(const Voxelized& result) {
   const std::vector<std::uint32_t> words = result.words("fragments");
   std::vector<Fragment> list(std::min<std::size_t>(result.count(VoxelizeCount::fragments), words.size() / 4));
   for (std::size_t i = 0; i < list.size(); ++i) std::copy_n(words.begin() + static_cast<std::ptrdiff_t>(4 * i), 4, list[i].begin());
-  std::sort(list.begin(), list.end());
-  return list;
-}
-
-std::vector<Fragment> fragments(const std::vector<truth::Voxel>& voxels, const VoxelGrid& grid) {
-  std::vector<Fragment> list;
-  const auto w = static_cast<std::uint32_t>(grid.width), h = static_cast<std::uint32_t>(grid.height);
-  for (std::uint32_t i = 0; i < voxels.size(); ++i)
-    for (const std::uint32_t t : voxels[i].triangles) list.push_back({i % w, i / w % h, i / w / h, t});
   std::sort(list.begin(), list.end());
   return list;
 }
@@ -53,7 +49,7 @@ TEST_P(VoxelizeBunny, EqualsTheGivenAnswer) {
   const std::string mesh_file = data_file("stanford_bunny/stanford-bunny.obj");
   const std::string answer_file = data_file("numeric/vox_bunny_stanford_" + std::to_string(n) + ".npy");
   if (mesh_file.empty() || answer_file.empty()) GTEST_SKIP() << "no LUXEL_DATA";
-  const Mesh mesh = read_obj(mesh_file);
+  const Mesh mesh = cases::read_obj(mesh_file);
   const Result<io::Array> answer = io::read_npy(answer_file);
   ASSERT_TRUE(answer.ok()) << answer.status().message();
   VoxelGrid grid = unit_grid(n);
@@ -85,42 +81,15 @@ TEST_P(VoxelizeBunny, EqualsTheGivenAnswer) {
 INSTANTIATE_TEST_SUITE_P(Sizes, VoxelizeBunny, testing::Values(Bunny{32, 3399}, Bunny{64, 13460}, Bunny{128, 53856}),
                          [](const auto& info) { return std::to_string(info.param.n); });
 
-// Triangles of every awkward kind in and around a grid of n^3 voxels.
-Mesh awkward(std::uint32_t count, double n, std::uint32_t seed) {
-  Mesh mesh;
-  for (std::uint32_t t = 0; t < count; ++t) {
-    std::uint32_t at = (seed * 1000003u + t) * 32u;
-    const auto next = [&] { return random01(at++); };
-    std::array<double, 9> v;
-    const double reach = t % 16 == 0 ? 2 * n : t % 4 == 0 ? n : 2.5;  // from ±2 grids down to small ones
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double centre = n * next();
-      for (std::size_t i = 0; i < 3; ++i) v[3 * i + k] = centre + reach * (2 * next() - 1);
-    }
-    switch (t / 16 % 8) {
-      case 0: break;
-      case 1: for (double& c : v) c = std::floor(c); break;               // voxel corners
-      case 2: for (double& c : v) c = std::floor(2 * c) / 2; break;       // corners, faces, centres
-      case 3: for (std::size_t i = 0; i < 3; ++i) v[3 * i + t % 3] = std::floor(v[t % 3]); break;  // in a grid plane
-      case 4: for (std::size_t k = 0; k < 3; ++k) v[6 + k] = v[k]; break;                          // a segment
-      case 5: for (std::size_t k = 0; k < 6; ++k) v[3 + k] = v[k % 3]; break;                      // a point
-      case 6: for (std::size_t k = 0; k < 3; ++k) v[6 + k] = 0.25 * v[k] + 0.75 * v[3 + k] + 1e-5 * (next() - 0.5); break;
-      default: for (std::size_t k = 0; k < 3; ++k) v[3 + k] = k == t % 3 ? v[3 + k] : std::floor(v[k] = std::floor(v[k]));
-    }  // 6: slivers; 7: an edge along a grid line
-    mesh.add(v);
-  }
-  return mesh;
-}
-
 class VoxelizeSets : public testing::TestWithParam<VoxelizeMode> {};
 
 TEST_P(VoxelizeSets, OfTenThousandTrianglesAreExact) {
   const VoxelGrid grid = unit_grid(12);
-  const VoxelTriangles triangles = prepare(awkward(10000, 12, 1), grid);
+  const VoxelTriangles triangles = prepare(awkward_mesh(10000, 12, 1), grid);
   VoxelizeParams params = voxelize_params(grid, triangles);
   params.mode = GetParam();
   const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, {{}});
-  const std::vector<Fragment> list = fragments(expected, grid);
+  const std::vector<Fragment> list = cases::fragments(expected, grid);
   ASSERT_GT(list.size(), 100000u);
   params.fragments = static_cast<int>(list.size());
   for (const std::string& device : test_devices()) {
@@ -138,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Modes, VoxelizeSets, testing::Values(VoxelizeMode::cons
 TEST(Voxelize, LargeTrianglesInALargeGridAreExact) {
   VoxelGrid grid = unit_grid(150);  // three blocks along each axis, no power of two
   grid.height = 70;
-  const VoxelTriangles triangles = prepare(awkward(64, 150, 2), grid);
+  const VoxelTriangles triangles = prepare(awkward_mesh(64, 150, 2), grid);
   VoxelizeParams params = voxelize_params(grid, triangles);
   const std::vector<char> expected = occupied(truth::voxels(triangles, grid, params.mode, {{}}));
   for (const std::string& device : test_devices()) {
@@ -154,59 +123,38 @@ TEST(Voxelize, LargeTrianglesInALargeGridAreExact) {
   }
 }
 
-const std::vector<truth::Material> paints{{{0.8, 0.1, 0.25, 1}, {0, 0, 0}},
-                                          {{0.0, 1.0, 0.5, 0.3}, {12.5, 3, 0}},
-                                          {{0.3, 0.7, 0.9, 0.05}, {0, 0.01, 100}}};
+using cases::paints;
 
 Mesh painted(std::uint32_t count, double n) {
-  Mesh mesh = awkward(count, n, 3);
+  Mesh mesh = awkward_mesh(count, n, 3);
   for (std::uint32_t t = 0; t < count; ++t) mesh.materials[t] = t % 3;
   return mesh;
 }
 
 VoxelizeParams with_everything(VoxelizeParams params) {
   params.opacity = params.normal = params.emission = true;
-  params.emission_max = 100;
+  params.emission_max = cases::brightest;
+  params.materials = 3;
   return params;
-}
-
-// A weight is within 2^-17 of the area (0.5 steps of 2^-16; what f32 adds: 2^-24 of coordinates up to 2 grids) or is the
-// floor 2^-16; with m triangles a mean of values in 0..1 is off by at most m (2^-17 + 2^-18) / area, and by half a step
-// 2^-14 of the values themselves and f32.
-double mean_bound(const truth::Voxel& v) {
-  return static_cast<double>(v.triangles.size()) * (0x1p-17 + 0x1p-18) / v.area + 0x1p-15 + 0x1p-20;
 }
 
 TEST(Voxelize, MeansFollowClippedAreas) {
   const VoxelGrid grid = unit_grid(13);
   const VoxelTriangles triangles = prepare(painted(400, 13), grid);
   const VoxelizeParams params = with_everything(voxelize_params(grid, triangles));
-  const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, paints);
+  const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, paints());
   std::vector<std::string> devices = test_devices();
   devices.push_back("cpu:double");
   for (const std::string& device : devices) {
     Context& context = test_context(device);
-    const Voxelized result = voxelize(context, params, triangles, paints);
-    const bool real64 = context.real64();
-    const std::vector<double> colour = decode(params.format, result.bytes.at("colour"), real64);
-    const std::vector<double> normal = decode(params.format, result.bytes.at("normal"), real64);
-    const std::vector<double> emission = decode(params.format, result.bytes.at("emission"), real64);
-    double worst = 0;
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      const truth::Voxel& v = expected[i];
-      const double bound = v.touched ? mean_bound(v) : 0;
-      const auto within = [&](double a, double b, double scale) {
-        EXPECT_LE(std::fabs(a - b), scale * bound) << device << " voxel " << i;
-        if (v.touched) worst = std::max(worst, std::fabs(a - b) / (scale * bound));
-      };
-      within(colour[4 * i + 3], v.touched ? v.opacity : 0, 1);
-      for (std::size_t k = 0; k < 3; ++k) {
-        within(colour[4 * i + k], v.colour[k], 1);
-        within(normal[4 * i + k], v.normal[k], 2);
-        within(emission[4 * i + k], v.emission[k], 100);
-      }
-    }
-    EXPECT_GT(worst, 0) << "nothing was compared";
+    const Voxelized result = voxelize(context, params, triangles, paints());
+    cases::Voxels found;
+    found.colour = decode(params.format, result.bytes.at("colour"), context.real64());
+    found.normal = decode(params.format, result.bytes.at("normal"), context.real64());
+    found.emission = decode(params.format, result.bytes.at("emission"), context.real64());
+    const double share = cases::worst_mean(found, expected);
+    EXPECT_LE(share, 1) << device;
+    EXPECT_GT(share, 0) << device << ": rounding shows";
   }
 }
 
@@ -219,7 +167,7 @@ TEST(Voxelize, BitsAreTheSameOnEveryDeviceAndRunAfterRun) {
     Voxelized first;
     for (const std::string& device : test_devices())
       for (int run = 0; run < 2; ++run) {
-        const Voxelized result = voxelize(test_context(device), params, triangles, paints);
+        const Voxelized result = voxelize(test_context(device), params, triangles, paints());
         if (first.bytes.empty()) first = result;
         for (const char* const name : {"colour", "normal", "emission"})
           EXPECT_EQ(result.bytes.at(name), first.bytes.at(name)) << device << " " << name << " " << luxel::name(format);
@@ -241,8 +189,8 @@ TEST(Voxelize, VertexOrderChangesNothingAndWindingTurnsNormals) {
   const VoxelizeParams params = with_everything(voxelize_params(grid, plain));
   for (const std::string& device : test_devices()) {
     Context& context = test_context(device);
-    const Voxelized a = voxelize(context, params, plain, paints), b = voxelize(context, params, rotated, paints),
-                    c = voxelize(context, params, flipped, paints);
+    const Voxelized a = voxelize(context, params, plain, paints()), b = voxelize(context, params, rotated, paints()),
+                    c = voxelize(context, params, flipped, paints());
     EXPECT_EQ(a.bytes, b.bytes) << device;
     EXPECT_EQ(a.bytes.at("colour"), c.bytes.at("colour")) << device;
     const std::vector<double> n = decode(params.format, a.bytes.at("normal")), m = decode(params.format, c.bytes.at("normal"));
@@ -267,55 +215,20 @@ TEST(Voxelize, NormalsPointToWhereTheTriangleIsCounterClockwise) {
   }
 }
 
-// Voxels that a walk through faces (6) or through faces, edges and corners (26) from outside does not reach.
-std::size_t not_reached(const std::vector<char>& set, int n, bool by_corners) {
-  std::vector<char> seen(set);
-  std::vector<std::array<int, 3>> front{{0, 0, 0}};
-  const auto at = [&](const std::array<int, 3>& p) { return (static_cast<std::size_t>(p[2]) * n + p[1]) * n + p[0]; };
-  EXPECT_FALSE(set[0]);
-  seen[0] = 1;
-  while (!front.empty()) {
-    const auto p = front.back();
-    front.pop_back();
-    for (int d = 0; d < 27; ++d) {
-      const std::array<int, 3> q{p[0] + d % 3 - 1, p[1] + d / 3 % 3 - 1, p[2] + d / 9 - 1};
-      const int steps = std::abs(q[0] - p[0]) + std::abs(q[1] - p[1]) + std::abs(q[2] - p[2]);
-      if (steps == 0 || (steps > 1 && !by_corners)) continue;
-      if (std::any_of(q.begin(), q.end(), [&](int c) { return c < 0 || c >= n; }) || seen[at(q)]) continue;
-      seen[at(q)] = 1;
-      front.push_back(q);
-    }
-  }
-  return static_cast<std::size_t>(std::count(seen.begin(), seen.end(), 0));
-}
-
 TEST(Voxelize, ClosedMeshesStayClosed) {
   const int n = 40;
   const VoxelGrid grid = unit_grid(n);
   for (const double radius : {4.0, 11.3, 18.0}) {
-    const Mesh ball = icosphere({20, 20, 20}, radius, 3);
-    Mesh cube;  // its sides lie in grid planes
-    for (int f = 0; f < 12; ++f) {
-      const int axis = f / 4;
-      const double side = f / 2 % 2 ? 20 + std::floor(radius) : 20 - std::floor(radius);
-      const double lo = 20 - std::floor(radius), hi = 20 + std::floor(radius);
-      std::array<double, 9> v;
-      const double us[2][3] = {{lo, hi, lo}, {hi, hi, lo}}, ws[2][3] = {{lo, lo, hi}, {lo, hi, hi}};
-      for (int i = 0; i < 3; ++i) {
-        v[static_cast<std::size_t>(3 * i + axis)] = side;
-        v[static_cast<std::size_t>(3 * i + (axis + 1) % 3)] = us[f % 2][i];
-        v[static_cast<std::size_t>(3 * i + (axis + 2) % 3)] = ws[f % 2][i];
-      }
-      cube.add(v);
-    }
-    for (const Mesh* mesh : {&ball, static_cast<const Mesh*>(&cube)})
+    const Mesh ball = cases::icosphere({20, 20, 20}, radius, 3);
+    const Mesh cube = cases::cube_mesh(20 - std::floor(radius), 20 + std::floor(radius));  // its sides lie in grid planes
+    for (const Mesh* mesh : {&ball, &cube})
       for (const VoxelizeMode mode : {VoxelizeMode::conservative, VoxelizeMode::thin}) {
         const VoxelTriangles triangles = prepare(*mesh, grid);
         VoxelizeParams params = voxelize_params(grid, triangles);
         params.mode = mode;
         for (const std::string& device : test_devices()) {
           const std::vector<char> set = occupied(params, voxelize(test_context(device), params, triangles));
-          const std::size_t inside = not_reached(set, n, mode == VoxelizeMode::conservative);
+          const std::size_t inside = cases::enclosed(set, n, mode == VoxelizeMode::conservative);
           EXPECT_GT(static_cast<double>(inside), 2 * std::pow(radius - 2, 3)) << device << " radius " << radius;
         }
       }
@@ -361,7 +274,7 @@ TEST(Voxelize, NeighboursStayClosedWhereTheyAreClipped) {
 }
 
 TEST(Voxelize, ShiftedByAMillionVoxelsIsTheSame) {
-  const Mesh mesh = icosphere({8, 8, 8}, 6, 2);
+  const Mesh mesh = cases::icosphere({8, 8, 8}, 6, 2);
   Mesh far = mesh;
   for (std::size_t i = 0; i < far.positions.size(); ++i) far.positions[i] = far.positions[i] * 0.125 + 1e6;
   VoxelGrid grid = unit_grid(16), far_grid = grid;
@@ -412,7 +325,8 @@ TEST(VoxelizeFull, AMillionTrianglesInOneVoxelDoNotWrap) {
   for (int i = 0; i < 1000000; ++i) mesh.add({1, 1, 1.5, 2, 1, 1.5, 1, 2, 1.5}, i % 4 == 0 ? 1 : 0);
   VoxelGrid grid = unit_grid(3);
   VoxelTriangles triangles = prepare(mesh, grid);
-  const VoxelizeParams params = voxelize_params(grid, triangles);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  params.materials = 2;
   const std::vector<truth::Material> two{{{1, 0, 0.5, 1}, {}}, {{0, 1, 0.5, 1}, {}}};
   for (const std::string& device : test_devices()) {
     const Voxelized result = voxelize(test_context(device), params, triangles, two);
@@ -429,17 +343,18 @@ TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
   const VoxelGrid grid = unit_grid(80);
   const VoxelTriangles triangles = prepare(painted(500, 80), grid);
   VoxelizeParams enough = voxelize_params(grid, triangles);
+  enough.materials = 3;
   enough.fragments = 1 << 21;
   for (const std::string& device : test_devices()) {
     Context& context = test_context(device);
-    const Voxelized whole = voxelize(context, enough, triangles, paints);
+    const Voxelized whole = voxelize(context, enough, triangles, paints());
     ASSERT_LE(whole.count(VoxelizeCount::fragments), 1u << 21);
     for (const auto which : {VoxelizeCount::blocks, VoxelizeCount::pieces, VoxelizeCount::bricks, VoxelizeCount::fragments}) {
       VoxelizeParams few = enough;
       const int room = static_cast<int>(whole.count(which)) / 3;
       (which == VoxelizeCount::blocks ? few.blocks : which == VoxelizeCount::pieces ? few.pieces
        : which == VoxelizeCount::bricks ? few.bricks : few.fragments) = room;
-      const Voxelized part = voxelize(context, few, triangles, paints);  // looks behind the ends
+      const Voxelized part = voxelize(context, few, triangles, paints());  // looks behind the ends
       EXPECT_EQ(part.count(which), whole.count(which)) << device << " " << static_cast<int>(which);
       if (which != VoxelizeCount::fragments) continue;
       EXPECT_EQ(part.bytes.at("colour"), whole.bytes.at("colour")) << device;
@@ -447,9 +362,56 @@ TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
   }
 }
 
+// The same mesh with its vertices on the device, as floats.
+Voxelized voxelize_there(Context& context, const Mesh& mesh, const VoxelGrid& grid, VoxelizeParams params) {
+  params.device_vertices = params.device_materials = true;
+  params.triangles = static_cast<int>(mesh.triangles());
+  params.vertices = static_cast<int>(mesh.positions.size() / 3);
+  params.origin = grid.origin;
+  params.voxel = grid.voxel;
+  const Plan made = plan(params, context.profile()).value();
+  std::vector<std::uint32_t> materials = mesh.materials;
+  materials.resize(mesh.triangles());
+  const std::vector<std::string> names{"colour", "counters"};
+  const std::vector<float> positions(mesh.positions.begin(), mesh.positions.end()), white(8, 1.0f);
+  std::vector<Bytes> out = run_bytes(context, made,
+                                     {{"positions", encode(Format::f32x1, positions, context.real64())},
+                                      {"indices", bytes_of(mesh.indices)},
+                                      {"triangle_materials", bytes_of(materials)},
+                                      {"materials", encode(Format::f32x4, white, context.real64())}},
+                                     names);
+  Voxelized result;
+  for (std::size_t i = 0; i < names.size(); ++i) result.bytes[names[i]] = std::move(out[i]);
+  std::memcpy(result.counters.data(), result.bytes["counters"].data(), sizeof result.counters);
+  return result;
+}
+
+TEST(Voxelize, VerticesOnTheDeviceAreRoundedThere) {
+  VoxelGrid grid = unit_grid(32);
+  grid.origin = {-3.25, 100.5, 0.0};
+  grid.voxel = 0.25;
+  Mesh mesh = cases::icosphere({0.75, 104.5, 4.0}, 3.5, 3);
+  for (double& c : mesh.positions) c = std::floor(c * 65536) / 65536;  // multiples of 2^-14 voxel: rounded alike
+  const VoxelTriangles triangles = prepare(mesh, grid);
+  const VoxelizeParams params = voxelize_params(grid, triangles);
+  const std::vector<char> set = occupied(params, voxelize(test_context(test_devices()[0]), params, triangles));
+  const double nan = std::nan("");
+  mesh.add({1, 1, 1, 2, 2, nan, 1, 2, 2});
+  mesh.add({1, 1, 1, 2, 2, 1e30, 1, 2, 2});
+  mesh.add({50, 1, 1, 50, 2, 1, 50, 2, 2});
+  mesh.indices.insert(mesh.indices.end(), {0, 1, 0xfffffff0u});
+  for (const std::string& device : test_devices()) {
+    const Voxelized result = voxelize_there(test_context(device), mesh, grid, params);
+    EXPECT_EQ(different(occupied(params, result), set), 0u) << device;
+    EXPECT_EQ(result.count(VoxelizeCount::not_finite), 1u) << device;
+    EXPECT_EQ(result.count(VoxelizeCount::bad_index), 1u) << device;
+    EXPECT_EQ(result.count(VoxelizeCount::far), 2u) << device;  // 50 - (-3.25) is 213 voxels, beyond 96
+  }
+}
+
 TEST(Voxelize, OtherMergingsTouchTheSameVoxels) {
   const VoxelGrid grid = unit_grid(24);
-  Mesh mesh = icosphere({12, 12, 12}, 10, 2);
+  Mesh mesh = cases::icosphere({12, 12, 12}, 10, 2);
   const VoxelTriangles triangles = prepare(mesh, grid);
   const VoxelizeParams exact = voxelize_params(grid, triangles);
   const std::vector<truth::Material> grey{{{0.2, 0.4, 0.6, 1}, {}}};

@@ -65,6 +65,8 @@ struct VoxelizeParams {
   int width = 0;                 // voxels, 1..2048
   int height = 0;                // 1..2048
   int depth = 0;                 // 1..2048
+  std::array<int, 3> first{0, 0, 0};      // the region that is made, first and last voxel: what lies outside keeps what the
+  std::array<int, 3> last{-1, -1, -1};    // volumes hold; -1: to the end
   VoxelizeMode mode = VoxelizeMode::conservative;
   VoxelizeMerging merging = VoxelizeMerging::exact;
   Format format = Format::f32x4; // of the volumes: f32x4, f16x4, unorm8x4
@@ -78,6 +80,13 @@ struct VoxelizeParams {
   int pieces = 0;                // capacity in pairs of triangle and brick of 8^3 voxels; 0: four times the triangles
   int bricks = 0;                // capacity in touched bricks; 0: all of the grid
   int fragments = 0;             // capacity of `fragments`; 0: no list
+
+  // Vertices in a device buffer, in float, which are rounded there: off by up to 2^-24 of a coordinate.
+  bool device_vertices = false;  // read `positions` and `indices` in place of `triangles`
+  bool device_materials = false; // and `triangle_materials`; else all are 0
+  int vertices = 0;              // in `positions`, 0..2^28
+  std::array<double, 3> origin{0, 0, 0};  // as in VoxelGrid; device vertices only
+  double voxel = 1;                       // 1e-30..1e30
 };
 
 /// Words of the resource `counters`. What is needed is counted in full also where the capacity does not hold it; what does
@@ -88,7 +97,10 @@ enum class VoxelizeCount {
   bricks,      // needed: bricks that triangles touch
   fragments,   // needed: pairs of voxel and triangle (0 where no list is asked for)
   occupied,    // voxels
-  saturated    // times that a count wrapped (moving_average); exact merging holds 2^31 triangles a voxel
+  saturated,   // times that a count wrapped (moving_average); exact merging holds 2^31 triangles a voxel
+  not_finite,  // device vertices: triangles skipped for a NaN or an infinity
+  bad_index,   // device vertices: triangles skipped for an index beyond the vertices
+  far          // device vertices: triangles skipped because they reach beyond -2..3 grids
 };
 
 /// Resources of the plan: read `triangles` (VoxelTriangles::records), `materials` (f32x4: linear base colour 0..1 and
@@ -96,7 +108,8 @@ enum class VoxelizeCount {
 /// coverage, [z][y][x]; occupied where coverage is above 0), `normal` (mean of unit normals, its length carries the
 /// spread; unorm8: n/2 + 1/2) and `emission` where asked for, `bricks` (u32: touched bricks in ascending order, x + (y + z
 /// bricks_y) bricks_x; as many as `counters` says), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
-/// asked for, `counters` (16 u32, see VoxelizeCount). Coverage is the opacity's mean, never below a step of unorm8 or of
+/// asked for, `counters` (16 u32, see VoxelizeCount). With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
+/// z of each vertex), `indices` (u32, three a triangle) and `triangle_materials` (u32). Coverage is the opacity's mean, never below a step of unorm8 or of
 /// 2^-14. Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelizeParams& params);
 

@@ -9,6 +9,9 @@
 #define COUNT_FRAGMENTS 3   // pairs of voxel and triangle
 #define COUNT_OCCUPIED 4    // voxels
 #define COUNT_SATURATED 5   // times that a voxel's mean lost its count (moving_average)
+#define COUNT_NOT_FINITE 6  // triangles of device vertices: with a NaN or an infinity
+#define COUNT_BAD_INDEX 7   // with an index beyond the vertices
+#define COUNT_FAR 8         // beyond -2 or 3 grids
 
 FN ivec3 blocks_of(ivec3 extent, int side) { return (extent + (side - 1)) / side; }
 FN int linear_of(ivec3 p, ivec3 extent) { return (p.z * extent.y + p.y) * extent.x + p.x; }
@@ -16,6 +19,7 @@ FN ivec3 position_of(int i, ivec3 extent) {
     return ivec3(i % extent.x, i / extent.x % extent.y, i / extent.x / extent.y);
 }
 
-// First and last voxel of a grid that a closed span of 2^-16 voxels meets; none where the last lies before the first.
-FN ivec3 first_voxel(ivec3 low) { return max((low - 1) >> 16, ivec3(0, 0, 0)); }
-FN ivec3 last_voxel(ivec3 high, ivec3 extent) { return min(high >> 16, extent - 1); }
+// First and last voxel of a region (first..last) that a closed span of 2^-16 voxels meets; none where the last lies before
+// the first.
+FN ivec3 first_voxel(ivec3 low, ivec3 first) { return max((low - 1) >> 16, first); }
+FN ivec3 last_voxel(ivec3 high, ivec3 last) { return min(high >> 16, last); }

@@ -103,8 +103,8 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const ivec3 low = min(v0, min(v1, v2));
     const ivec3 high = max(v0, max(v1, v2));
     const ivec3 corner = BRICK * position_of(brick, blocks_of(extent, BRICK));
-    const ivec3 first = max(corner, first_voxel(low));
-    const ivec3 last = min(corner + (BRICK - 1), last_voxel(high, extent));
+    const ivec3 first = max(corner, first_voxel(low, ivec3(params.first_x, params.first_y, params.first_z)));
+    const ivec3 last = min(corner + (BRICK - 1), last_voxel(high, ivec3(params.last_x, params.last_y, params.last_z)));
 
     ivec4 lines[9];
     uvec2 n[3];
@@ -118,7 +118,7 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const vec3 rough = vec3(float_of_signed_64(n[0]), float_of_signed_64(n[1]), float_of_signed_64(n[2]));
     const int dominant = dominant_axis(rough);
 
-    const int material = load(triangles, t * TRIANGLE_WORDS + 9);
+    const int material = clamp(load(triangles, t * TRIANGLE_WORDS + 9), 0, params.materials - 1);
     const vec4 colour = load(materials, 2 * material);
     const vec4 emission = load(materials, 2 * material + 1);
     vec3 normal = vec3(0.0f, 0.0f, 0.0f);

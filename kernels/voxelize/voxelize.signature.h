@@ -13,6 +13,13 @@
     _(int, width)            /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, first_x)          /* the region of the grid that is made */ \
+    _(int, first_y) \
+    _(int, first_z) \
+    _(int, last_x)           /* included */ \
+    _(int, last_y) \
+    _(int, last_z) \
+    _(int, materials)        /* in the table */ \
     _(int, capacity)         /* pieces that the list holds at most */ \
     _(int, fragments)        /* that `fragment_list` holds */ \
     _(float, emission_unit)  /* emission of one step of 2^-14 */ \

@@ -19,23 +19,26 @@ FN void keep(CTX, int t, ivec3 block, ivec3 grid) {
     }
 }
 
+FN bool inside(ivec3 low, ivec3 high, ivec3 from, ivec3 to) {
+    return low.x >= from.x && low.y >= from.y && low.z >= from.z && high.x <= to.x && high.y <= to.y && high.z <= to.z;
+}
+
 FN void refine(CTX, int t, ivec3 from, ivec3 to) {
-    const ivec3 extent = ivec3(params.width, params.height, params.depth);
-    const ivec3 grid = blocks_of(extent, SIDE);
+    const ivec3 grid = blocks_of(ivec3(params.width, params.height, params.depth), SIDE);
     const ivec3 v0 = vertex(ctx, t, 0);
     const ivec3 v1 = vertex(ctx, t, 1);
     const ivec3 v2 = vertex(ctx, t, 2);
-    const ivec3 first = max(from, first_voxel(min(v0, min(v1, v2))));
-    const ivec3 last = min(to, last_voxel(max(v0, max(v1, v2)), extent));
+    const ivec3 low = min(v0, min(v1, v2));
+    const ivec3 high = max(v0, max(v1, v2));
+    const ivec3 first = first_voxel(low, from);
+    const ivec3 last = last_voxel(high, to);
     if (first.x > last.x || first.y > last.y || first.z > last.z) return;
     const ivec3 a = first / SIDE;
     const ivec3 b = last / SIDE;
-#if ROOT
-    if (a.x == b.x && a.y == b.y && a.z == b.z) {
+    if (a.x == b.x && a.y == b.y && a.z == b.z && inside(low, high, from * 65536, (to + 1) * 65536)) {
         keep(ctx, t, a, grid);
         return;
     }
-#endif
     ivec4 lines[9];
     uvec2 n[3];
     UNROLL for (int axis = 0; axis < 3; ++axis) {
@@ -50,25 +53,26 @@ FN void refine(CTX, int t, ivec3 from, ivec3 to) {
         for (int y = a.y; y <= b.y; ++y)
             for (int x = a.x; x <= b.x; ++x) {
                 const ivec3 block = ivec3(x, y, z);
-                const ivec3 low = max(block * SIDE, first);
-                const ivec3 high = min(block * SIDE + (SIDE - 1), last) + 1;
-                const ivec3 c = low + high;
-                const ivec3 h = high - low;
+                const ivec3 begin = max(block * SIDE, first);
+                const ivec3 end = min(block * SIDE + (SIDE - 1), last) + 1;
+                const ivec3 c = begin + end;
+                const ivec3 h = end - begin;
                 if (plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) && edges_meet(lines, c, h))
                     keep(ctx, t, block, grid);
             }
 }
 
 KERNEL(voxelize_refine) {
-    const ivec3 extent = ivec3(params.width, params.height, params.depth);
+    const ivec3 first = ivec3(params.first_x, params.first_y, params.first_z);
+    const ivec3 last = ivec3(params.last_x, params.last_y, params.last_z);
 #if ROOT
-    for (int i = invocation_x(); i < params.parents; i += params.stride)
-        refine(ctx, i, ivec3(0, 0, 0), extent - 1);
+    for (int i = invocation_x(); i < params.parents; i += params.stride) refine(ctx, i, first, last);
 #else
+    const ivec3 grid = blocks_of(ivec3(params.width, params.height, params.depth), PARENT);
     const int count = int(min(load(counters, COUNT_BLOCKS), uint(params.parents)));
     for (int i = invocation_x(); i < count; i += params.stride) {
-        const ivec3 from = PARENT * position_of(int(load(parent_list, 2 * i + 1)), blocks_of(extent, PARENT));
-        refine(ctx, int(load(parent_list, 2 * i)), from, from + (PARENT - 1));
+        const ivec3 from = PARENT * position_of(int(load(parent_list, 2 * i + 1)), grid);
+        refine(ctx, int(load(parent_list, 2 * i)), max(from, first), min(from + (PARENT - 1), last));
     }
 #endif
 }

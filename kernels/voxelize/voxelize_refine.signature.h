@@ -8,6 +8,12 @@
     _(int, width)      /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, first_x)    /* the region of the grid that is made */ \
+    _(int, first_y) \
+    _(int, first_z) \
+    _(int, last_x)     /* included */ \
+    _(int, last_y) \
+    _(int, last_z) \
     _(int, parents)    /* triangles (root), or how many parents the list holds at most */ \
     _(int, capacity)   /* pieces that `pieces` holds */ \
     _(int, counter)    /* of the pieces that are found */ \

@@ -31,16 +31,19 @@ FN vec4 mean_of(CTX, int voxel) {
 
 KERNEL(voxelize_resolve) {
     const ivec3 extent = ivec3(params.width, params.height, params.depth);
-    const ivec3 first = ivec3(invocation_x() * BRICK, invocation_y(), invocation_z());
-    if (first.x >= extent.x || first.y >= extent.y || first.z >= extent.z) return;
+    const int brick_x = params.first_x / BRICK + invocation_x();
+    const ivec3 first = ivec3(max(brick_x * BRICK, params.first_x), params.first_y + invocation_y(),
+                              params.first_z + invocation_z());
+    const int last_x = min(brick_x * BRICK + (BRICK - 1), params.last_x);
+    if (first.x > last_x || first.y > params.last_y || first.z > params.last_z) return;
     const uint slot = load(slots, linear_of(first / BRICK, blocks_of(extent, BRICK)));
-    const int row = linear_of(first % BRICK, ivec3(BRICK, BRICK, BRICK));
+    const int row = linear_of(ivec3(0, first.y % BRICK, first.z % BRICK), ivec3(BRICK, BRICK, BRICK));
     uint occupied = 0u;
-    for (int x = 0; x < min(BRICK, extent.x - first.x); ++x) {
+    for (int x = first.x; x <= last_x; ++x) {
         vec4 mean = vec4(0.0f);
-        if (slot > 0u) mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x);
+        if (slot > 0u) mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x % BRICK);
         if (mean.w > 0.0f) ++occupied;
-        store_voxel(dst, extent, first + ivec3(x, 0, 0), mean);
+        store_voxel(dst, extent, ivec3(x, first.y, first.z), mean);
     }
     if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);
 }

@@ -12,6 +12,12 @@
     _(int, width)            /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, first_x)          /* the region of the grid that is made */ \
+    _(int, first_y) \
+    _(int, first_z) \
+    _(int, last_x)           /* included */ \
+    _(int, last_y) \
+    _(int, last_z) \
     _(int, words)            /* of a voxel's accumulators */ \
     _(int, at)               /* first of the three that are read; colour: that of opacity, or 0 for none */ \
     _(float, emission_unit)  /* emission of one step of 2^-14 */ \

@@ -1,0 +1,29 @@
+/* BUILD
+   math: voxel_grid
+   module plain: MATERIALS=0
+   module materials: MATERIALS=1
+*/
+#define PARAMETERS(_) \
+    _(int, triangles) \
+    _(int, vertices) \
+    _(float, origin_x)  /* scene units, rounded to float */ \
+    _(float, origin_y) \
+    _(float, origin_z) \
+    _(float, rest_x)    /* what rounding took from it */ \
+    _(float, rest_y) \
+    _(float, rest_z) \
+    _(float, scale)     /* units of 2^-16 voxel in a scene unit */ \
+    _(float, low)       /* least and greatest coordinate that is taken, in these units */ \
+    _(float, high) \
+    _(int, stride)      /* invocations */
+#if MATERIALS
+#define CHOSEN(_) _(READ, 4, uint, material_list)
+#else
+#define CHOSEN(_)
+#endif
+#define BINDINGS(_) \
+    _(READ, 0, float, positions) \
+    _(READ, 1, uint, indices) \
+    _(WRITE, 2, int, records) \
+    _(UPDATE, 3, uint, counters) \
+    CHOSEN(_)
