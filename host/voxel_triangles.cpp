@@ -10,7 +10,7 @@ namespace luxel {
 
 namespace {
 
-using Point = std::array<double, 3>;       // voxels
+using Point = std::array<double, 5>;         // voxels; u, v
 using Corner = std::array<std::int32_t, 3>;  // 2^-16 voxel
 constexpr int unit = 65536;
 
@@ -30,7 +30,7 @@ std::vector<Point> clip(std::vector<Point> polygon, double low, double high) {
         const Point &a = std::min(p, q), &b = std::max(p, q);
         const double t = (bound - a[axis]) / (b[axis] - a[axis]);
         Point crossing;
-        for (std::size_t k = 0; k < 3; ++k) crossing[k] = k == axis ? bound : a[k] + t * (b[k] - a[k]);
+        for (std::size_t k = 0; k < 5; ++k) crossing[k] = k == axis ? bound : a[k] + t * (b[k] - a[k]);
         kept.push_back(crossing);
       }
       polygon = std::move(kept);
@@ -45,15 +45,15 @@ std::int64_t cross(const Corner& o, const Corner& a, const Corner& b, std::size_
 
 class Builder {
  public:
-  Builder(const VoxelGrid& grid, VoxelTriangles& out)
-      : extent_{grid.width, grid.height, grid.depth}, out_(out), marks_(cells(8)) {
+  Builder(const VoxelGrid& grid, bool textured, VoxelTriangles& out)
+      : extent_{grid.width, grid.height, grid.depth}, textured_(textured), out_(out), marks_(cells(8)) {
     const double largest = std::max({grid.width, grid.height, grid.depth});
     low_ = -2 * largest;
     high_ = 3 * largest;
   }
 
   bool far(const Point& p) const {
-    return std::any_of(p.begin(), p.end(), [&](double g) { return g < low_ || g > high_; });
+    return std::any_of(p.begin(), p.begin() + 3, [&](double g) { return g < low_ || g > high_; });
   }
 
   // A triangle whose coordinates are finite.
@@ -95,11 +95,16 @@ class Builder {
       if (high[k] < 0 || low[k] > extent_[k] * unit) return false;
     }
     std::int32_t turned = 0;
-    for (const auto& [i, j] : {std::pair{0, 1}, {1, 2}, {0, 1}})
-      if (v[static_cast<std::size_t>(j)] < v[static_cast<std::size_t>(i)]) {
-        std::swap(v[static_cast<std::size_t>(i)], v[static_cast<std::size_t>(j)]);
+    std::array<std::size_t, 3> order{0, 1, 2};
+    for (const std::size_t i : {0u, 1u, 0u})
+      if (v[i + 1] < v[i]) {
+        std::swap(v[i], v[i + 1]);
+        std::swap(order[i], order[i + 1]);
         turned ^= 1;
       }
+    if (textured_)
+      for (const std::size_t i : order)
+        for (const std::size_t k : {3u, 4u}) out_.uvs.push_back(static_cast<float>(corners[i][k]));
     for (const Corner& corner : v) out_.records.insert(out_.records.end(), corner.begin(), corner.end());
     out_.records.insert(out_.records.end(),
                         {static_cast<std::int32_t>(material), static_cast<std::int32_t>(index), turned});
@@ -117,8 +122,8 @@ class Builder {
       first[k] = std::max((low[k] - 1) >> 16, 0) / side;
       last[k] = std::min(high[k] >> 16, extent_[k] - 1) / side;
     }
-    const Point n{static_cast<double>(cross(v[0], v[1], v[2], 1, 2)), static_cast<double>(cross(v[0], v[1], v[2], 2, 0)),
-                  static_cast<double>(cross(v[0], v[1], v[2], 0, 1))};
+    const std::array<double, 3> n{static_cast<double>(cross(v[0], v[1], v[2], 1, 2)), static_cast<double>(cross(v[0], v[1], v[2], 2, 0)),
+                                  static_cast<double>(cross(v[0], v[1], v[2], 0, 1))};
     std::size_t w = 2;
     for (const std::size_t k : {std::size_t{1}, std::size_t{0}})
       if (std::fabs(n[k]) > std::fabs(n[w])) w = k;
@@ -150,6 +155,7 @@ class Builder {
   }
 
   const std::array<int, 3> extent_;
+  const bool textured_;
   VoxelTriangles& out_;
   double low_ = 0, high_ = 0;
   std::vector<char> marks_;
@@ -173,7 +179,7 @@ Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& g
     return Status(Code::invalid_argument, "VoxelMesh.positions is null; expected three numbers for each vertex");
 
   VoxelTriangles out;
-  Builder builder(grid, out);
+  Builder builder(grid, mesh.uvs != nullptr, out);
   out.records.reserve(mesh.triangles * 12);
   for (std::size_t t = 0; t < mesh.triangles; ++t) {
     const std::uint32_t* index = mesh.indices + 3 * t;
@@ -187,6 +193,11 @@ Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& g
       for (std::size_t k = 0; k < 3; ++k) {
         corners[i][k] = (mesh.positions[3 * std::size_t{index[i]} + k] - grid.origin[k]) / grid.voxel;
         finite = finite && std::fabs(corners[i][k]) <= 1e150;  // so that differences and products are finite too
+      }
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double uv = mesh.uvs ? mesh.uvs[2 * std::size_t{index[i]} + k] : 0;
+        corners[i][3 + k] = std::isfinite(uv) ? uv : 0;
       }
     if (!finite)
       ++out.not_finite;

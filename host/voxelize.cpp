@@ -7,6 +7,8 @@
 
 namespace luxel {
 
+std::vector<double> srgb_table();  // voxel_textures.cpp
+
 namespace {
 
 // kernels/math/voxel_grid.h
@@ -92,6 +94,9 @@ Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.pieces", p.pieces, 0, 1 << 28));
   LUXEL_CHECK(check_range("VoxelizeParams.bricks", p.bricks, 0, 1 << 24));
   LUXEL_CHECK(check_range("VoxelizeParams.fragments", p.fragments, 0, 1 << 28));
+  LUXEL_CHECK(check_range("VoxelizeParams.texels", p.texels, 0, 1 << 28));
+  if (p.texels > 0 && p.device_vertices)
+    return out_of_range("VoxelizeParams.texels", p.texels, "0 with device_vertices");
   LUXEL_CHECK(check_range("VoxelizeParams.vertices", p.vertices, 0, 1 << 28));
   for (const double o : p.origin) LUXEL_CHECK(check_range("VoxelizeParams.origin", o, -1e30, 1e30));
   LUXEL_CHECK(check_range("VoxelizeParams.voxel", p.voxel, 1e-30, 1e30));
@@ -128,6 +133,15 @@ class Voxelization {
       triangles_ = resource("triangles", Format::u32, triangles * triangle_words, false);
     }
     materials_ = resource("materials", Format::f32x4, static_cast<std::size_t>(p_.materials) * 2, false);
+    if (p_.texels > 0) {
+      uvs_ = resource("uvs", Format::f32x1, triangles * 6, false);
+      textures_ = resource("texture_table", Format::u32, static_cast<std::size_t>(p_.materials) * 8, false);
+      texels_ = resource("texels", Format::u32, static_cast<std::size_t>(p_.texels), false);
+      const std::vector<double> table = srgb_table();
+      std::vector<double> rounded;
+      for (const double v : table) rounded.push_back(static_cast<float>(v));
+      srgb_ = planner_.table(rounded, table);
+    }
     const std::size_t voxels = static_cast<std::size_t>(p_.width) * p_.height * p_.depth;
     colour_ = resource("colour", p_.format, voxels, true);
     if (p_.normal) normal_ = resource("normal", p_.format, voxels, true);
@@ -251,7 +265,11 @@ class Voxelization {
         {"triangles", triangles_}, {"materials", materials_}, {"pieces", pieces_},  {"slots", slots_},
         {"counters", counters_},   {"sums", sums_},           {"carries", carries_}};
     if (p_.fragments > 0) slots.emplace_back("fragment_list", fragments_);
-    planner_.pass("voxelize", p_.fragments > 0 ? "list" : "plain", "voxelize", pieces, line,
+    if (p_.texels > 0)
+      slots.insert(slots.end(), {{"uvs", uvs_}, {"texture_table", textures_}, {"texels", texels_}, {"srgb", srgb_}});
+    const char* const module = p_.texels > 0 ? p_.fragments > 0 ? "textured_list" : "textured"
+                                             : p_.fragments > 0 ? "list" : "plain";
+    planner_.pass("voxelize", module, "voxelize", pieces, line,
                   grid_values(p_) + Planner::Values{{"materials", p_.materials},
                                                     {"capacity", room_.pieces},
                                                     {"fragments", p_.fragments},
@@ -299,7 +317,7 @@ class Voxelization {
   const Capacities room_;
   const int words_;
   Planner planner_;
-  Slot positions_, indices_, chosen_;
+  Slot positions_, indices_, chosen_, uvs_, textures_, texels_, srgb_;
   Slot triangles_, materials_, colour_, normal_, emission_, list_, fragments_, counters_;
   Slot slots_, spans_, pieces_, sums_, carries_;
 };

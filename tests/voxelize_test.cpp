@@ -131,90 +131,6 @@ Mesh painted(std::uint32_t count, double n) {
   return mesh;
 }
 
-VoxelizeParams with_everything(VoxelizeParams params) {
-  params.opacity = params.normal = params.emission = true;
-  params.emission_max = cases::brightest;
-  params.materials = 3;
-  return params;
-}
-
-TEST(Voxelize, MeansFollowClippedAreas) {
-  const VoxelGrid grid = unit_grid(13);
-  const VoxelTriangles triangles = prepare(painted(400, 13), grid);
-  const VoxelizeParams params = with_everything(voxelize_params(grid, triangles));
-  const std::vector<truth::Voxel> expected = truth::voxels(triangles, grid, params.mode, paints());
-  std::vector<std::string> devices = test_devices();
-  devices.push_back("cpu:double");
-  for (const std::string& device : devices) {
-    Context& context = test_context(device);
-    const Voxelized result = voxelize(context, params, triangles, paints());
-    cases::Voxels found;
-    found.colour = decode(params.format, result.bytes.at("colour"), context.real64());
-    found.normal = decode(params.format, result.bytes.at("normal"), context.real64());
-    found.emission = decode(params.format, result.bytes.at("emission"), context.real64());
-    const double share = cases::worst_mean(found, expected);
-    EXPECT_LE(share, 1) << device;
-    EXPECT_GT(share, 0) << device << ": rounding shows";
-  }
-}
-
-TEST(Voxelize, BitsAreTheSameOnEveryDeviceAndRunAfterRun) {
-  const VoxelGrid grid = unit_grid(37);
-  const VoxelTriangles triangles = prepare(painted(1500, 37), grid);
-  for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4}) {
-    VoxelizeParams params = with_everything(voxelize_params(grid, triangles));
-    params.format = format;
-    Voxelized first;
-    for (const std::string& device : test_devices())
-      for (int run = 0; run < 2; ++run) {
-        const Voxelized result = voxelize(test_context(device), params, triangles, paints());
-        if (first.bytes.empty()) first = result;
-        for (const char* const name : {"colour", "normal", "emission"})
-          EXPECT_EQ(result.bytes.at(name), first.bytes.at(name)) << device << " " << name << " " << luxel::name(format);
-        EXPECT_EQ(result.counters, first.counters) << device;
-      }
-  }
-}
-
-TEST(Voxelize, VertexOrderChangesNothingAndWindingTurnsNormals) {
-  const VoxelGrid grid = unit_grid(16);
-  const Mesh mesh = painted(300, 16);
-  const auto turned = [&](std::array<std::size_t, 3> order) {
-    Mesh other = mesh;
-    for (std::size_t t = 0; t < mesh.triangles(); ++t)
-      for (std::size_t i = 0; i < 3; ++i) other.indices[3 * t + i] = mesh.indices[3 * t + order[i]];
-    return prepare(other, grid);
-  };
-  const VoxelTriangles plain = prepare(mesh, grid), rotated = turned({1, 2, 0}), flipped = turned({0, 2, 1});
-  const VoxelizeParams params = with_everything(voxelize_params(grid, plain));
-  for (const std::string& device : test_devices()) {
-    Context& context = test_context(device);
-    const Voxelized a = voxelize(context, params, plain, paints()), b = voxelize(context, params, rotated, paints()),
-                    c = voxelize(context, params, flipped, paints());
-    EXPECT_EQ(a.bytes, b.bytes) << device;
-    EXPECT_EQ(a.bytes.at("colour"), c.bytes.at("colour")) << device;
-    const std::vector<double> n = decode(params.format, a.bytes.at("normal")), m = decode(params.format, c.bytes.at("normal"));
-    for (std::size_t i = 0; i < n.size(); ++i) ASSERT_NEAR(n[i], -m[i], 0x1p-13) << device;  // a step of 2^-14, twice
-  }
-}
-
-TEST(Voxelize, NormalsPointToWhereTheTriangleIsCounterClockwise) {
-  Mesh mesh;
-  mesh.add({1, 1, 2.5, 7, 1, 2.5, 1, 7, 2.5});  // seen from +z
-  const VoxelGrid grid = unit_grid(8);
-  const VoxelTriangles triangles = prepare(mesh, grid);
-  VoxelizeParams params = voxelize_params(grid, triangles);
-  params.normal = true;
-  for (const std::string& device : test_devices()) {
-    const Voxelized result = voxelize(test_context(device), params, triangles);
-    const std::vector<double> normal = decode(params.format, result.bytes.at("normal"));
-    const std::size_t at = 4 * ((2 * 8 + 2) * 8 + 2);
-    EXPECT_EQ(normal[at], 0) << device;
-    EXPECT_EQ(normal[at + 1], 0) << device;
-    EXPECT_EQ(normal[at + 2], 1) << device;
-  }
-}
-
 TEST(Voxelize, ClosedMeshesStayClosed) {
   const int n = 40;
   const VoxelGrid grid = unit_grid(n);
@@ -320,25 +236,6 @@ TEST(Voxelize, AnEmptyMeshIsAnEmptyGrid) {
   }
 }
 
-TEST(VoxelizeFull, AMillionTrianglesInOneVoxelDoNotWrap) {
-  Mesh mesh;
-  for (int i = 0; i < 1000000; ++i) mesh.add({1, 1, 1.5, 2, 1, 1.5, 1, 2, 1.5}, i % 4 == 0 ? 1 : 0);
-  VoxelGrid grid = unit_grid(3);
-  VoxelTriangles triangles = prepare(mesh, grid);
-  VoxelizeParams params = voxelize_params(grid, triangles);
-  params.materials = 2;
-  const std::vector<truth::Material> two{{{1, 0, 0.5, 1}, {}}, {{0, 1, 0.5, 1}, {}}};
-  for (const std::string& device : test_devices()) {
-    const Voxelized result = voxelize(test_context(device), params, triangles, two);
-    const std::vector<double> colour = decode(params.format, result.bytes.at("colour"));
-    const std::size_t at = 4 * ((1 * 3 + 1) * 3 + 1);
-    EXPECT_EQ(colour[at], 0.75) << device;
-    EXPECT_EQ(colour[at + 1], 0.25) << device;
-    EXPECT_EQ(colour[at + 2], 0.5) << device;
-    EXPECT_EQ(result.count(VoxelizeCount::saturated), 0u) << device;
-  }
-}
-
 TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
   const VoxelGrid grid = unit_grid(80);
   const VoxelTriangles triangles = prepare(painted(500, 80), grid);
@@ -406,27 +303,6 @@ TEST(Voxelize, VerticesOnTheDeviceAreRoundedThere) {
     EXPECT_EQ(result.count(VoxelizeCount::not_finite), 1u) << device;
     EXPECT_EQ(result.count(VoxelizeCount::bad_index), 1u) << device;
     EXPECT_EQ(result.count(VoxelizeCount::far), 2u) << device;  // 50 - (-3.25) is 213 voxels, beyond 96
-  }
-}
-
-TEST(Voxelize, OtherMergingsTouchTheSameVoxels) {
-  const VoxelGrid grid = unit_grid(24);
-  Mesh mesh = cases::icosphere({12, 12, 12}, 10, 2);
-  const VoxelTriangles triangles = prepare(mesh, grid);
-  const VoxelizeParams exact = voxelize_params(grid, triangles);
-  const std::vector<truth::Material> grey{{{0.2, 0.4, 0.6, 1}, {}}};
-  for (const std::string& device : test_devices()) {
-    const std::vector<char> set = occupied(exact, voxelize(test_context(device), exact, triangles, grey));
-    for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
-      VoxelizeParams params = exact;
-      params.merging = merging;
-      const Voxelized result = voxelize(test_context(device), params, triangles, grey);
-      EXPECT_EQ(different(occupied(params, result), set), 0u) << device;
-      const std::vector<double> colour = decode(params.format, result.bytes.at("colour"));
-      for (std::size_t i = 0; i < set.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k)  // 0.2, 0.4, 0.6 are steps of 8 bits
-          ASSERT_NEAR(colour[4 * i + k], set[i] ? 0.2 * static_cast<double>(k + 1) : 0, 1e-6) << device;
-    }
   }
 }
 

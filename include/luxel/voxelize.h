@@ -26,11 +26,13 @@ struct VoxelMesh {
   const std::uint32_t* indices = nullptr;   // three a triangle, counter-clockwise seen from the side the normal points to
   std::size_t triangles = 0;
   const std::uint32_t* materials = nullptr; // of each triangle; null: all 0
+  const double* uvs = nullptr;              // u, v of each vertex; null: none
 };
 
 /// Triangles as the kernel takes them, and what became of the mesh.
 struct VoxelTriangles {
   std::vector<std::int32_t> records;  // 12 words a triangle: the resource `triangles`
+  std::vector<float> uvs;             // 6 a record (u, v of its corners), where the mesh has any: the resource `uvs`
   std::size_t count = 0;              // records
   std::size_t blocks = 0;             // VoxelizeParams.blocks, .pieces and .bricks that suffice
   std::size_t pieces = 0;
@@ -46,6 +48,28 @@ struct VoxelTriangles {
 /// largest extent) pass as they are; triangles beyond are clipped there first, in double. Pure; needs no device.
 /// Errors: invalid_argument, naming field, value and range.
 Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& grid);
+
+/// How texture coordinates outside 0..1 are taken.
+enum class VoxelWrap { repeat, clamp, mirror };
+
+/// A base-colour texture of a material, as glTF has them; it multiplies the material's base colour and opacity.
+struct VoxelTexture {
+  const std::uint8_t* rgba = nullptr;  // sRGB colour and alpha of each texel, v = 0 first; null: none
+  int width = 0;                       // texels, 1..16384
+  int height = 0;                      // 1..16384
+  VoxelWrap wrap_u = VoxelWrap::repeat;
+  VoxelWrap wrap_v = VoxelWrap::repeat;
+  double alpha_cutoff = 0;             // above 0: where alpha is less, the surface is not there; elsewhere it is opaque. 0..1
+};
+
+/// Textures as the kernel takes them: mip levels, averaged in linear light.
+struct VoxelTextures {
+  std::vector<std::uint32_t> table;   // 8 words a texture: the resource `texture_table`
+  std::vector<std::uint32_t> texels;  // the resource `texels`
+};
+
+/// Textures of materials 0, 1, ... Errors: invalid_argument, naming field, value and range.
+Result<VoxelTextures> voxel_textures(const VoxelTexture* textures, std::size_t count);
 
 /// Which voxels count as touched.
 enum class VoxelizeMode {
@@ -80,6 +104,7 @@ struct VoxelizeParams {
   int pieces = 0;                // capacity in pairs of triangle and brick of 8^3 voxels; 0: four times the triangles
   int bricks = 0;                // capacity in touched bricks; 0: all of the grid
   int fragments = 0;             // capacity of `fragments`; 0: no list
+  int texels = 0;                // words in `texels` (2^28 at most); 0: no textures, nothing of them is bound
 
   // Vertices in a device buffer, in float, which are rounded there: off by up to 2^-24 of a coordinate.
   bool device_vertices = false;  // read `positions` and `indices` in place of `triangles`
@@ -108,7 +133,8 @@ enum class VoxelizeCount {
 /// coverage, [z][y][x]; occupied where coverage is above 0), `normal` (mean of unit normals, its length carries the
 /// spread; unorm8: n/2 + 1/2) and `emission` where asked for, `bricks` (u32: touched bricks in ascending order, x + (y + z
 /// bricks_y) bricks_x; as many as `counters` says), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
-/// asked for, `counters` (16 u32, see VoxelizeCount). With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
+/// asked for, `counters` (16 u32, see VoxelizeCount). With textures: `uvs` (f32x1), `texture_table` (u32, 8 words for each
+/// material) and `texels` (u32), sampled at the centroid of the triangle's part in the voxel. With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
 /// z of each vertex), `indices` (u32, three a triangle) and `triangle_materials` (u32). Coverage is the opacity's mean, never below a step of unorm8 or of
 /// 2^-14. Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelizeParams& params);

@@ -83,6 +83,59 @@ FN void write_last(CTX, int voxel, vec4 colour) {
     }
 }
 
+#if TEXTURES
+FN vec4 texel(CTX, int at) {
+    const uint bits = load(texels, at);
+    const float alpha = unorm8_value(bits >> 24);
+    return vec4(alpha * table(srgb, int(bits & 255u)), alpha * table(srgb, int((bits >> 8) & 255u)),
+                alpha * table(srgb, int((bits >> 16) & 255u)), alpha);
+}
+
+// The texture of a material at (u, v), linear, not premultiplied: bilinear, of the level whose texels cover about
+// 1 / `density` of the area that a voxel covers; density: texels of level 0 in an area of a voxel.
+FN vec4 texture_at(CTX, int entry, vec2 uv, float density) {
+    int at = int(load(texture_table, entry));
+    int width = int(load(texture_table, entry + 1));
+    int height = int(load(texture_table, entry + 2));
+    const int levels = int(load(texture_table, entry + 3));
+    const int wrap_u = int(load(texture_table, entry + 4));
+    const int wrap_v = int(load(texture_table, entry + 5));
+    for (int level = 1; level < levels && density > 2.0f; ++level) {
+        at += width * height;
+        width = max(width / 2, 1);
+        height = max(height / 2, 1);
+        density = 0.25f * density;
+    }
+    const float x = moderate(uv.x, wrap_u) * float(width) - 0.5f;
+    const float y = moderate(uv.y, wrap_v) * float(height) - 0.5f;
+    const float fx = x - floor(x);
+    const float fy = y - floor(y);
+    const int x0 = wrapped(int(floor(x)), width, wrap_u);
+    const int x1 = wrapped(int(floor(x)) + 1, width, wrap_u);
+    const int y0 = at + width * wrapped(int(floor(y)), height, wrap_v);
+    const int y1 = at + width * wrapped(int(floor(y)) + 1, height, wrap_v);
+    const vec4 v = (1.0f - fy) * ((1.0f - fx) * texel(ctx, y0 + x0) + fx * texel(ctx, y0 + x1)) +
+                   fy * ((1.0f - fx) * texel(ctx, y1 + x0) + fx * texel(ctx, y1 + x1));
+    if (!(v.w > 0.0f)) return vec4(0.0f);
+    return vec4(v.x / v.w, v.y / v.w, v.z / v.w, v.w);
+}
+
+FN vec2 corner_uv(CTX, int t, int i) { return vec2(load(uvs, 6 * t + 2 * i), load(uvs, 6 * t + 2 * i + 1)); }
+
+// Texture coordinates at a point p of triangle t, from its corners and normal n; all in voxels, seen along the axis in
+// which n is largest. The middle where the triangle has no area.
+FN vec2 uv_at(CTX, int t, vec3 p, vec3 a, vec3 b, vec3 c, vec3 n, int axis) {
+    const vec2 s = corner_uv(ctx, t, 0);
+    const vec2 u = corner_uv(ctx, t, 1) - s;
+    const vec2 v = corner_uv(ctx, t, 2) - s;
+    const float area = coordinate(n, axis);
+    if (area == 0.0f) return s + (u + v) / 3.0f;
+    const float along_b = coordinate(cross_of(p - a, c - a), axis) / area;
+    const float along_c = coordinate(cross_of(b - a, p - a), axis) / area;
+    return s + clamp(along_b, 0.0f, 1.0f) * u + clamp(along_c, 0.0f, 1.0f) * v;
+}
+#endif
+
 #if LIST
 FN void fragment(CTX, ivec3 p, int mesh_triangle) {
     const uint at = atomic_add(counters, COUNT_FRAGMENTS, 1u);
@@ -128,6 +181,20 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
         if (size > 0.0f) normal = turn * rough / size;
     }
 
+#if TEXTURES
+    const int entry = material * TEXTURE_WORDS;
+    const float cutoff = float(load(texture_table, entry + 6)) / 65536.0f;
+    float density = 0.0f;  // texels in the area of a voxel; none without a texture
+    if (load(texture_table, entry + 1) > 0u) {
+        const vec2 u = corner_uv(ctx, t, 1) - corner_uv(ctx, t, 0);
+        const vec2 v = corner_uv(ctx, t, 2) - corner_uv(ctx, t, 0);
+        const float size = sqrt(rough.x * rough.x + rough.y * rough.y + rough.z * rough.z) / 4294967296.0f;
+        const float in_texels = abs(u.x * v.y - u.y * v.x) * float(load(texture_table, entry + 1)) *
+                                float(load(texture_table, entry + 2));
+        density = size > 0.0f ? max(in_texels / size, 1.0e-30f) : 1.0f;
+    }
+#endif
+
     for (int z = first.z; z <= last.z; ++z)
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
@@ -151,15 +218,34 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
                         meets = meets && (i / 3 != dominant || edge_meets(lines[i], projected(c, i / 3), ivec2(1, 1)));
                 }
                 if (!meets) continue;
+                vec4 paint = colour;
+                vec4 part = vec4(0.0f);
+#if TEXTURES
+                const bool shares = true;
+#else
+                const bool shares = MERGE == MERGE_EXACT;
+#endif
+                const vec3 a = in_voxel(v0, p);
+                const vec3 b = in_voxel(v1, p);
+                const vec3 d = in_voxel(v2, p);
+                if (shares) part = part_in_cube(a, b, d);
+#if TEXTURES
+                if (density > 0.0f) {
+                    const vec2 uv = uv_at(ctx, t, vec3(part.x, part.y, part.z), a, b, d, rough / 4294967296.0f, dominant);
+                    const vec4 found = texture_at(ctx, entry, uv, density);
+                    if (cutoff > 0.0f && found.w < cutoff) continue;
+                    paint = vec4(colour.x * found.x, colour.y * found.y, colour.z * found.z,
+                                 cutoff > 0.0f ? colour.w : colour.w * found.w);
+                }
+#endif
                 const int voxel = slot * BRICK_VOXELS + linear_of(p - corner, ivec3(BRICK, BRICK, BRICK));
                 if (MERGE == MERGE_MOVING_AVERAGE) {
-                    move_average(ctx, voxel, colour);
+                    move_average(ctx, voxel, paint);
                 } else if (MERGE == MERGE_LAST_WRITE) {
-                    write_last(ctx, voxel, colour);
+                    write_last(ctx, voxel, paint);
                 } else {
-                    const vec4 part = part_in_cube(in_voxel(v0, p), in_voxel(v1, p), in_voxel(v2, p));
                     const uint weight = max(uint(part.w * 65536.0f + 0.5f), 1u);
-                    add_mean(ctx, voxel, weight, colour, vec3(emission.x, emission.y, emission.z), normal);
+                    add_mean(ctx, voxel, weight, paint, vec3(emission.x, emission.y, emission.z), normal);
                 }
 #if LIST
                 fragment(ctx, p, load(triangles, t * TRIANGLE_WORDS + 10));

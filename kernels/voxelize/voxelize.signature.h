@@ -1,7 +1,9 @@
 /* BUILD
-   math: wide_int triangle_box voxel_grid clip
-   module plain: LIST=0
-   module list: LIST=1
+   math: wide_int triangle_box voxel_grid clip texture
+   module plain: LIST=0 TEXTURES=0
+   module list: LIST=1 TEXTURES=0
+   module textured: LIST=0 TEXTURES=1
+   module textured_list: LIST=1 TEXTURES=1
 */
 #define MODE_CONSERVATIVE 0
 #define MODE_THIN 1
@@ -35,6 +37,15 @@
 #else
 #define LISTED(_)
 #endif
+#if TEXTURES
+#define TEXTURED(_) \
+    _(READ, 8, float, uvs)           /* of the corners of each record, u and v */ \
+    _(READ, 9, uint, texture_table)  /* math/texture.h; a texture for each material */ \
+    _(READ, 10, uint, texels)        /* sRGB colour and alpha, 8 bits each */ \
+    _(UNIFORM, 11, 256, srgb)
+#else
+#define TEXTURED(_)
+#endif
 #define BINDINGS(_) \
     _(READ, 0, int, triangles) \
     _(READ, 1, vec4, materials) \
@@ -43,4 +54,5 @@
     _(UPDATE, 4, uint, counters) \
     _(UPDATE, 5, uint, sums) \
     _(UPDATE, 6, uint, carries) \
-    LISTED(_)
+    LISTED(_) \
+    TEXTURED(_)
