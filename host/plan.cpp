@@ -75,7 +75,7 @@ Result<Plan> Planner::finish() && {
   std::size_t at = plan_.tables.size() * table_bytes;
   for (ScratchRegion& region : plan_.scratch) {
     region.offset = at;
-    at = (at + region.count * bytes_per_pixel(region.format) + 255) / 256 * 256;
+    at = (at + region.count * bytes_per_pixel(region.format) + 1023) / 1024 * 1024;
   }
   plan_.scratch_bytes = at;
   return std::move(plan_);

@@ -7,7 +7,7 @@
 #include <memory>
 #include <thread>
 
-#include "host/module.h"
+#include "host/bindings.h"
 #include "host/reference/dispatch.h"
 
 namespace luxel::reference {
@@ -68,34 +68,34 @@ Status run(const Plan& plan, const std::vector<Binding>& bindings, Precision pre
   if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
   if (Status status = check_shape(plan); !status) return status;
 
-  std::vector<Memory> resources(plan.resources.size());
+  std::vector<std::string_view> names;
+  for (const Binding& binding : bindings) names.push_back(binding.name);
+  const bool brought = std::find(names.begin(), names.end(), "scratch") != names.end();
+  if (!brought && plan.scratch_bytes > 0) names.push_back("scratch");  // made below
+  Result<std::vector<int>> matched = match(plan, names);
+  if (!matched) return matched.status();
+  const std::vector<int>& at = matched.value();
   Binding scratch;
-  for (const Binding& binding : bindings) {
-    const auto found = std::find_if(plan.resources.begin(), plan.resources.end(),
-                                    [&](const Resource& resource) { return resource.name == binding.name; });
-    if (found != plan.resources.end()) {
-      Memory& memory = resources[found - plan.resources.begin()];
-      memory = {binding.data, binding.bytes, found->extent, found->format, found->address};
-    } else if (binding.name == "scratch") {
-      scratch = binding;
-    } else {
-      return {Code::invalid_argument, plan.kernel + ": there is no binding " + std::string(binding.name)};
-    }
-  }
-  for (std::size_t i = 0; i < resources.size(); ++i) {
+  if (brought && at.back() >= 0) scratch = bindings[static_cast<std::size_t>(at.back())];
+  std::vector<Memory> resources;
+  for (std::size_t i = 0; i < plan.resources.size(); ++i) {
     const Resource& resource = plan.resources[i];
-    if (!resources[i].data) return {Code::invalid_argument, plan.kernel + ": binding " + resource.name + " is missing"};
+    const Binding& binding = bindings[static_cast<std::size_t>(at[i])];
+    resources.push_back({binding.data, binding.bytes, resource.extent, resource.format, resource.address});
+    if (!binding.data) return bad_binding(plan, resource.name, "has no data");
     const std::size_t needs = resource_bytes(resource, precision);
-    if (resources[i].bytes < needs)
-      return {Code::invalid_argument, quantity(plan.kernel, resource.name, resources[i].bytes, needs)};
-    for (std::size_t j = 0; j < i; ++j) {
-      const Resource& other = plan.resources[j];
-      const auto a = static_cast<const char*>(resources[i].data), b = static_cast<const char*>(resources[j].data);
-      if ((resource.written || other.written) && !(resource.may_alias && other.may_alias) &&
-          a < b + resource_bytes(other, precision) && b < a + needs)
-        return {Code::invalid_argument,
-                plan.kernel + ": bindings " + other.name + " and " + resource.name + " overlap; this plan needs them apart"};
-    }
+    if (binding.bytes < needs)
+      return {Code::invalid_argument, quantity(plan.kernel, resource.name, binding.bytes, needs)};
+  }
+  const auto span_of = [&](int index) {
+    const std::size_t i = static_cast<std::size_t>(index);
+    if (i == resources.size()) return std::pair{static_cast<const char*>(scratch.data), plan.scratch_bytes};
+    return std::pair{static_cast<const char*>(resources[i].data), resource_bytes(plan.resources[i], precision)};
+  };
+  for (const std::pair<int, int>& pair : exclusive(plan)) {
+    const auto [a, a_bytes] = span_of(pair.first);
+    const auto [b, b_bytes] = span_of(pair.second);
+    if (a && b && a < b + b_bytes && b < a + a_bytes) return overlapping(plan, pair);
   }
 
   std::unique_ptr<std::byte[]> own;

@@ -70,7 +70,8 @@ struct Resource {
   bool may_alias = false;               // may be bound to the same memory as another resource
 };
 
-/// A part of the scratch buffer: `count` elements of `format`. Offsets are multiples of 256 bytes.
+/// A part of the scratch buffer: `count` elements of `format`. Offsets are multiples of 1024 bytes, which
+/// every driver's sub-buffers and descriptors begin at (some OpenCL drivers want 512).
 struct ScratchRegion {
   Format format = Format::f32x4;
   std::size_t count = 0;
