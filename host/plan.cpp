@@ -25,10 +25,11 @@ namespace {
 
 template <class Infos>
 bool assign(const Infos& infos, const Planner::Values& values, std::vector<double>& to, std::vector<bool>& set) {
-  for (const auto& [name, value] : values) {
-    const auto found = std::find_if(infos.begin(), infos.end(), [&](const auto& info) { return info.name == name; });
+  for (const auto& given : values) {
+    const auto found =
+        std::find_if(infos.begin(), infos.end(), [&](const auto& info) { return info.name == given.first; });
     if (found == infos.end()) return false;
-    to[found - infos.begin()] = value;
+    to[found - infos.begin()] = given.second;
     set[found - infos.begin()] = true;
   }
   return true;
