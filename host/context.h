@@ -29,6 +29,9 @@ class Program {
   const Context* const owner;
 };
 
+/// Where a resource begins in its memory, in bytes.
+std::size_t offset_bytes(const Plan& plan, const Named& named, bool real64);
+
 /// What a run of any Context refuses: memory that is missing, of another device, or of another kind, extent or format
 /// than the plan's resource, and names that are missing, unknown or given twice (`scratch` may be left out). Whether
 /// buffers are large enough is the execution's to check.

@@ -202,8 +202,11 @@ bool names_scratch(const std::vector<Named>& resources) {
 
 std::vector<Binding> bindings_of(const CompiledPlan& program, const std::vector<Named>& resources) {
   std::vector<Binding> bindings;
-  for (const Named& named : resources)
-    bindings.push_back({named.name, static_cast<DeviceMemory&>(*named.memory).handle.get(), 0, named.memory->bytes});
+  for (const Named& named : resources) {
+    const std::size_t offset = offset_bytes(program.pipeline.plan(), named, false);
+    bindings.push_back({named.name, static_cast<DeviceMemory&>(*named.memory).handle.get(), offset,
+                        named.memory->bytes - offset});
+  }
   if (program.scratch && !names_scratch(resources))
     bindings.push_back({"scratch", program.scratch.get(), 0, program.pipeline.plan().scratch_bytes});
   return bindings;

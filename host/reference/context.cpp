@@ -123,7 +123,9 @@ Status CppContext::run_many(Program& program, const std::vector<Named>& resource
   bool own_scratch = checked.scratch != nullptr;
   for (const Named& named : resources) {
     own_scratch = own_scratch && named.name != "scratch";
-    bindings.push_back({named.name, static_cast<HeapMemory&>(*named.memory).data.get(), named.memory->bytes});
+    const std::size_t offset = offset_bytes(plan, named, real64());
+    bindings.push_back(
+        {named.name, static_cast<HeapMemory&>(*named.memory).data.get() + offset, named.memory->bytes - offset});
   }
   if (own_scratch) bindings.push_back({"scratch", checked.scratch.get(), plan.scratch_bytes});
   const auto begin = std::chrono::steady_clock::now();

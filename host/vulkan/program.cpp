@@ -40,7 +40,9 @@ void DeviceProgram::destroy_recorded() {
 std::vector<Binding> DeviceProgram::bind(const std::vector<Named>& resources) const {
   std::vector<Binding> bindings;
   for (const Named& named : resources) {
-    bindings.push_back(static_cast<const DeviceMemory&>(*named.memory).binding(named.name));
+    Binding& binding = bindings.emplace_back(static_cast<const DeviceMemory&>(*named.memory).binding(named.name));
+    binding.offset = offset_bytes(pipeline_.plan(), named, false);
+    binding.bytes -= binding.offset;
   }
   if (scratch_.handle != VK_NULL_HANDLE) {
     Binding& scratch = bindings.emplace_back();
@@ -134,7 +136,8 @@ Status DeviceProgram::run(const std::vector<Named>& resources, int repeat, Times
   if (Status status = check_memories(owner, pipeline_.plan(), resources); !status) return status;
   Recorded wanted;
   for (const Named& named : resources) {
-    wanted.memories.emplace_back(named.name, static_cast<const DeviceMemory&>(*named.memory).id());
+    wanted.memories.emplace_back(named.name, static_cast<const DeviceMemory&>(*named.memory).id(),
+                                 named.first);
   }
   wanted.repeat = repeat;
   wanted.timed = times && machine_->timestamp_mask() != 0;

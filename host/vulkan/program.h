@@ -2,7 +2,7 @@
 #pragma once
 #include <mutex>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "host/context.h"
@@ -23,7 +23,7 @@ class DeviceProgram final : public luxel::Program {
  private:
   /// What the command buffer holds.
   struct Recorded {
-    std::vector<std::pair<std::string, std::uint64_t>> memories;  // names and DeviceMemory::id
+    std::vector<std::tuple<std::string, std::uint64_t, std::size_t>> memories;  // name, DeviceMemory::id, Named::first
     int repeat = 0;                                               // 0: nothing is recorded
     bool timed = false;
     bool tables_current = false;

@@ -41,6 +41,9 @@ class Program;
 struct Named {
   std::string_view name;
   std::shared_ptr<Memory> memory;
+  /// Pixels (elements) of the memory before the resource begins, which bind parts of one buffer: a multiple of 64 always
+  /// fits a device's alignment. Images: 0.
+  std::size_t first = 0;
 };
 
 class Context {

@@ -1,0 +1,129 @@
+// cone_trace: diffuse irradiance, ambient occlusion and glossy radiance gathered by cones from a pyramid of voxels
+// (Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011).
+#pragma once
+#include <vector>
+
+#include <luxel/plan.h>
+
+namespace luxel {
+
+/// A cone of a set, in the frame of the receiver's normal.
+struct Cone {
+  std::array<double, 3> direction{0, 0, 1};  // z along the normal; any length but 0
+  double weight = 1;                         // > 0; a set's are scaled to sum to 1
+  double aperture = 0;                       // full angle, radians, 0..2.6
+};
+
+/// A set of 1, 4, 5, 6, 8, 9, 16 or 25 cones whose weighted sum over caps of that aperture equals the cosine-weighted
+/// mean of every function of the spherical-harmonics bands 0 and 1 (1 cone), 0..2 (4, 5, 6), 0..3 (8, 9), 0..4 (16) and
+/// 0..6 (25): rings at the nodes of the Gauss rule (Gauss-Radau with a cone along the normal) of the cosine lobe
+/// divided, band by band, by the cap's own coefficients. `aperture`: full angle in radians, 0 takes the set's own: for
+/// 6 cones 60 degrees, else such that the caps cover 4/5 of the hemisphere (for 1 what band 1 asks for, 141 degrees).
+/// Errors: invalid_argument for another count, or an aperture at which no such set of cones above the horizon exists.
+Result<std::vector<Cone>> cone_set(int count, double aperture = 0);
+
+/// The six cones of 60 degrees that Crassin 2011 is usually implemented with: weights 1/4 along the normal and 3/20 at 60
+/// degrees from it. They return .875 of band 1 and .505 of band 2.
+std::vector<Cone> classic_cones();
+
+/// What a set, of caps, returns of each band 0..6 of the cosine-weighted mean, where the cosine lobe has that band (0, 1,
+/// 2, 4, 6); and the largest response to a harmonic that it should not respond to (of any order, or of bands 3 and 5),
+/// all harmonics normalised to a maximum of about 1.
+struct ConeSetResponse {
+  std::array<double, 7> band{};   // 1: exact; 0 where the lobe has none
+  std::array<double, 7> stray{};  // 0: exact
+};
+ConeSetResponse cone_set_response(const std::vector<Cone>& cones);
+
+/// Root mean square and maximum error of the cosine-weighted visibility of random half-spaces through a set of caps.
+struct HalfSpaceError {
+  double rms = 0, max = 0;
+};
+HalfSpaceError cone_set_half_spaces(const std::vector<Cone>& cones, int samples = 20000);
+
+enum class ConeVariant {
+  isotropic,   // coarse levels by mip_build's isotropic; the opacity of every level is per finest voxel
+  anisotropic  // coarse levels by mip_build's anisotropic; the opacity of each is per voxel of its level
+};
+
+struct ConeTraceParams {
+  int width = 0;   // receivers in a row, 1..1048576
+  int height = 1;  // rows of receivers, 1..65535
+  std::array<int, 3> extent{0, 0, 0};  // of the finest level, x, y, z, each 1..2048 (Input::image: from 4 on)
+  int levels = 0;  // levels that are read, the finest counts; 0: all, until every extent is 1
+  ConeVariant variant = ConeVariant::isotropic;
+  Format format = Format::f32x4;     // of the volumes: f32x4, f16x4, unorm8x4
+  Input input = Input::buffer;       // buffer (interpolated in code), or image: sampled, through the linear sampler
+  std::array<double, 3> origin{0, 0, 0};  // outer corner of voxel (0,0,0), scene units. The device subtracts it in float:
+                                          // far from 0, rebase receivers and origin on the host
+  double voxel = 1;                  // side of a finest voxel, scene units, > 0
+
+  std::vector<Cone> cones = {};      // empty: cone_set(6); at most 64
+  int pattern_x = 1;                 // 1..64: interleaved sampling (Keller and Heidrich 2001): the cones are dealt to the
+  int pattern_y = 1;                 // pattern_x * pattern_y receivers of a tile, which together have the whole set
+  double footprint = 0.5;            // width of the voxels that are looked up, in diameters of the cone, 1/16..1. At 1
+                                     // (Crassin 2011) a trilinear look-up is wider than the cone, and hides a floor from
+                                     // itself; at 1/2 it has the variance of the cone's disc
+  double step_scale = 0.5;           // step along the axis, in such voxels (but at least that part of a finest one), 1/16..4
+  double normal_offset = 1;          // cones start this many voxels above the surface, 0..64
+  double start = 0;                  // and gather from here on, voxels along the axis, 0..64
+  double max_distance = 0;           // up to here, scene units along the axis; 0: until they leave the volume
+  double gamma = 0;                  // occlusion at distance r counts 1 / (1 + gamma r), per scene unit, >= 0
+  std::array<double, 3> environment{0, 0, 0};  // radiance where a cone ends without being blocked
+  double error = 0;                  // a cone ends once what is left cannot add more than this radiance, >= 0; the
+  double radiance_max = 1;           // largest radiance of volume and environment, > 0
+  int max_steps = 0;                 // of a cone, 0: as many as the longest may need
+
+  bool radiance = true;              // irradiance is wanted
+  bool occlusion = true;             // visibility is wanted
+  bool specular = false;             // glossy radiance is wanted
+  bool skip_empty = true;            // where the coarser of two levels is empty, the finer is not read; exact in f32x4
+  bool count = false;                // adds `counters`
+};
+
+/// Outcomes, as the u32 values of `counters` that are added to. Each cone is one of opaque .. missed.
+enum class ConeOutcome {
+  cones,       // cones traced
+  opaque,      // ended where no more than error / radiance_max passes
+  left,        // left the volume
+  reached,     // reached max_distance
+  capped,      // reached max_steps
+  missed,      // did not meet the volume
+  not_finite,  // gave NaN or infinity; dropped (counted as no radiance and no occlusion)
+  degenerate,  // receivers without a normal or place (zero, NaN or infinite); their result is 0
+  look_ups     // trilinear look-ups of all cones
+};
+constexpr int cone_outcomes = 9;
+
+/// Resources of the plan:
+/// - `fine`: level 0, premultiplied radiance and opacity, [z][y][x], tightly packed (Input::image: a 3-D image);
+/// - `coarse` (levels > 1): all further levels in one buffer, at cone_trace_level_offset(); or one 3-D image of
+///   cone_trace_atlas_extent(), each level at cone_trace_atlas_offset();
+/// - `receivers`: two vec4 each: position (scene units) and roughness; normal (any length) and 0. f32x4;
+/// - `views` (specular): a vec4 each, the direction to the eye, any length;
+/// - `irradiance` (written; radiance or occlusion): a vec4 each: irradiance, and visibility 0..1 (1 - occlusion). What is
+///   not wanted is 0, or 1. With a pattern, each holds an unbiased estimate, whose mean over a tile is meant;
+/// - `specular` (written): a vec4 each: mean radiance over the lobe's cone, and visibility;
+/// - `counters` (count): cone_outcomes u32.
+/// Errors: invalid_argument, naming field, value and range.
+Status validate(const ConeTraceParams& params);
+Result<Plan> plan(const ConeTraceParams& params, const Profile& profile);
+
+/// Levels that are read, and the extent of one in texels, as mip_build makes them. `params` must be valid.
+int cone_trace_levels(const ConeTraceParams& params);
+std::array<int, 3> cone_trace_extent(const ConeTraceParams& params, int level);
+
+/// Texels of the buffer `coarse` before a level (>= 1) of a direction (0..5 as MipDirections; isotropic: 0), a multiple of
+/// 64; and of the whole buffer. mip_build's outputs can be bound as these parts (Named::first).
+std::size_t cone_trace_level_offset(const ConeTraceParams& params, int level, int direction = 0);
+std::size_t cone_trace_coarse_texels(const ConeTraceParams& params);
+
+/// The same for the image of all coarse levels: side by side along x, directions one behind the other along z.
+std::array<int, 3> cone_trace_atlas_offset(const ConeTraceParams& params, int level, int direction = 0);
+std::array<int, 3> cone_trace_atlas_extent(const ConeTraceParams& params);
+
+/// Full angle, radians, of the cone that stands for the GGX lobe of a (perceptual) roughness 0..1: its mean cosine to the
+/// mirror direction is that of the lobe (with its masking) at normal incidence, above the horizon; at most 2.6.
+double specular_aperture(double roughness);
+
+}  // namespace luxel

@@ -1,0 +1,279 @@
+// Voxel cone tracing: light and occlusion gathered along the axes of cones, from a pyramid of voxels whose level follows
+// the cone's diameter. Source: Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011. The
+// recurrence is that of premultiplied colour q = a L (Max 1995):
+//     s = (1 - (1-a)^(d'/d)) / a,  C += (1-A) s q,  A += (1-A) s a.
+
+// Outcomes (include/luxel/cone_trace.h).
+#if COUNT
+#define COUNTED(outcome) atomic_add(counters, outcome, 1u);
+#define LOOKED_UP(n) look_ups += n;
+#else
+#define COUNTED(outcome)
+#define LOOKED_UP(n)
+#endif
+#define CONES 0
+#define OPAQUE 1
+#define LEFT 2
+#define REACHED 3
+#define CAPPED 4
+#define MISSED 5
+#define NOT_FINITE 6
+#define DEGENERATE 7
+#define LOOK_UPS 8
+#define VOLUMES (ANISOTROPIC != 0 ? 3 : 1)  // that one look-up of a coarse level reads
+
+FN vec4 blend(vec4 a, vec4 b, float f) { return a + f * (b - a); }  // equal values stay so to the bit
+FN bool finite(vec4 v) {
+    const vec4 zero = v - v;
+    return zero.x + zero.y + zero.z + zero.w == 0.0f;
+}
+FN int halved(int n) { return max(n >> 1, 1); }
+FN ivec3 coarser(ivec3 e) { return ivec3(halved(e.x), halved(e.y), halved(e.z)); }
+FN ivec3 finest(CTX) { return ivec3(params.extent_x, params.extent_y, params.extent_z); }
+
+// Trilinear look-up at p, in voxels of the level, between the nearest centres; beyond the outermost, theirs.
+#if SAMPLED
+// An image of all coarse levels: side by side along x, the directions one behind the other along z.
+FN int place_behind(int at, ivec3 e) { return at + e.x; }
+FN float in_box(float p, int n) { return clamp(p, 0.5f, float(n) - 0.5f); }
+FN vec4 fine_at(CTX, vec3 p) {
+    const ivec3 e = finest(ctx);
+    return sample3d(fine, vec3(p.x / float(e.x), p.y / float(e.y), p.z / float(e.z)), 0.0f);
+}
+FN vec4 directional(CTX, vec3 p, ivec3 e, int at, int direction) {
+    const float x = float(at) + in_box(p.x, e.x);
+    const float y = in_box(p.y, e.y);
+    const float z = float(direction * halved(params.extent_z)) + in_box(p.z, e.z);
+    return sample3d(coarse, vec3(x / float(params.atlas_x), y / float(params.atlas_y), z / float(params.atlas_z)), 0.0f);
+}
+#define CORNERS
+#define COARSE(direction) directional(ctx, p, e, at, direction)
+#else
+// A buffer of all coarse levels; each (each of its directions) begins at a multiple of 64 texels.
+FN int volume_of(ivec3 e) { return (e.x * e.y * e.z + 63) / 64 * 64; }
+FN int place_behind(int at, ivec3 e) { return at + (ANISOTROPIC != 0 ? 6 : 1) * volume_of(e); }
+FN float in_box(float p, int n) { return clamp(p - 0.5f, 0.0f, float(n - 1)); }
+#define CORNERS \
+    const vec3 q = vec3(in_box(p.x, e.x), in_box(p.y, e.y), in_box(p.z, e.z)); \
+    const ivec3 c = ivec3(int(q.x), int(q.y), int(q.z)); \
+    const vec3 f = vec3(q.x - float(c.x), q.y - float(c.y), q.z - float(c.z)); \
+    const int x = c.x + 1 < e.x ? 1 : 0; \
+    const int y = c.y + 1 < e.y ? e.x : 0; \
+    const int z = c.z + 1 < e.z ? e.x * e.y : 0; \
+    const int corner = (c.z * e.y + c.y) * e.x + c.x;
+#define ROW(volume, i) blend(load_pixel(volume, 0, i, 0), load_pixel(volume, 0, (i) + x, 0), f.x)
+#define SLICE(volume, i) blend(ROW(volume, i), ROW(volume, (i) + y), f.y)
+#define CELL(volume, i) blend(SLICE(volume, i), SLICE(volume, (i) + z), f.z)
+FN vec4 fine_at(CTX, vec3 p) {
+    const ivec3 e = finest(ctx);
+    CORNERS
+    return CELL(fine, corner);
+}
+#define COARSE(direction) CELL(coarse, at + (direction) * volume_of(e) + corner)
+#endif
+
+// A coarse level as seen along d: directional volumes weighted by the squared components of d.
+FN vec4 coarse_at(CTX, vec3 p, vec3 d, ivec3 e, int at) {
+    CORNERS
+    if (ANISOTROPIC == 0) return COARSE(0);
+    const vec4 along_x = COARSE(d.x < 0.0f ? 1 : 0);
+    const vec4 along_y = COARSE(d.y < 0.0f ? 3 : 2);
+    const vec4 along_z = COARSE(d.z < 0.0f ? 5 : 4);
+    return along_x + d.y * d.y * (along_y - along_x) + d.z * d.z * (along_z - along_x);
+}
+
+// Voxels of a level in a finest one, along each axis.
+FN vec3 level_scale(CTX, ivec3 e) {
+    const ivec3 n = finest(ctx);
+    return vec3(float(e.x) / float(n.x), float(e.y) / float(n.y), float(e.z) / float(n.z));
+}
+// 1 / reference length of a coarse level's opacity: a finest voxel, or a voxel of the level along d.
+FN float per_reference(vec3 d, vec3 scale) {
+    return ANISOTROPIC == 0 ? 1.0f : 1.0f / (d.x * d.x / scale.x + d.y * d.y / scale.y + d.z * d.z / scale.z);
+}
+
+// log2(x) for 1 <= x <= 2, within 2e-5, exact at both ends.
+FN float log2_part(float x) {
+    const float t = x - 1.0f;
+    const float q = 0.441917029f + t * (-0.267179320f + t * (0.148426458f - 0.0451489228f * t));
+    return t * (1.0f + (1.0f - t) * q);
+}
+
+// The part of a range along d in which one coordinate lies between 0 and n; empty where x > y.
+FN vec2 within(vec2 range, float p, float d, float n) {
+    if (abs(d) < 1.0e-9f) return p >= 0.0f && p <= n ? range : vec2(1.0f, 0.0f);
+    const float a = -p / d;
+    const float b = (n - p) / d;
+    return vec2(max(range.x, min(a, b)), min(range.y, max(a, b)));
+}
+
+// Positions at which floats still tell quarter voxels apart; from farther on, nothing of the volume is seen.
+#define FARTHEST 4194304.0f
+
+// Radiance (with what the environment adds) and occlusion seen along d from p, in finest voxels.
+FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
+    const ivec3 n = finest(ctx);
+    vec2 range = within(vec2(params.start, params.reach), p.x, d.x, float(n.x));
+    range = within(range, p.y, d.y, float(n.y));
+    range = within(range, p.z, d.z, float(n.z));
+    const bool near = max(abs(p.x), max(abs(p.y), abs(p.z))) <= FARTHEST;
+    const float span = near ? range.y - range.x : -1.0f;
+    const vec3 entry = vec3(p.x + range.x * d.x, p.y + range.x * d.y, p.z + range.x * d.z);
+
+    // Two levels: the finer one, `level` (its texels 2^level = size wide), and the next.
+    int level = 0;
+    float size = 1.0f;
+    ivec3 this_e = n;
+    ivec3 next_e = coarser(n);
+    int this_at = 0;
+    int next_at = 0;
+    vec3 this_scale = vec3(1.0f, 1.0f, 1.0f);
+    vec3 next_scale = level_scale(ctx, next_e);
+    float this_k = 1.0f;
+    float next_k = per_reference(d, next_scale);
+
+    vec4 sum = vec4(0.0f);  // C, A
+    float occlusion = 0.0f;
+    float t = 0.0f;         // behind the entry
+    int steps = 0;
+#if COUNT
+    int look_ups = 0;
+#endif
+    while (t < span && 1.0f - sum.w > params.stop && steps < params.step_cap) {
+        const float step = min(params.step_scale * max(1.0f, spread * (range.x + t)), span - t);
+        const float middle = t + 0.5f * step;
+        const float diameter = spread * (range.x + middle);
+        while (diameter >= 2.0f * size && level + 1 < params.levels) {
+            this_e = next_e;
+            this_at = next_at;
+            this_scale = next_scale;
+            this_k = next_k;
+            next_at = place_behind(this_at, this_e);
+            next_e = coarser(this_e);
+            next_scale = level_scale(ctx, next_e);
+            next_k = per_reference(d, next_scale);
+            level += 1;
+            size = 2.0f * size;
+        }
+        const vec3 at = vec3(entry.x + middle * d.x, entry.y + middle * d.y, entry.z + middle * d.z);
+        const bool between = diameter > size && level + 1 < params.levels;
+        vec4 far = vec4(0.0f);
+        if (between) {
+            far = coarse_at(ctx, at * next_scale, d, next_e, next_at);
+            LOOKED_UP(VOLUMES)
+        }
+        vec4 v = vec4(0.0f);
+        if (SKIP_EMPTY == 0 || !between || far.x + far.y + far.z + far.w != 0.0f) {
+            if (level == 0) {
+                v = fine_at(ctx, at);
+                LOOKED_UP(1)
+            } else {
+                v = coarse_at(ctx, at * this_scale, d, this_e, this_at);
+                LOOKED_UP(VOLUMES)
+            }
+            v = extinction_part(v.w, step * this_k) * v;
+            if (between) v = blend(v, extinction_part(far.w, step * next_k) * far, log2_part(diameter / size));
+            v = (1.0f - sum.w) * v;
+            sum = sum + v;
+            if (OCCLUSION != 0) occlusion += v.w / (1.0f + params.gamma * (range.x + middle));
+        }
+        t += step;
+        steps += 1;
+    }
+
+#if COUNT
+    atomic_add(counters, LOOK_UPS, uint(look_ups));
+#endif
+    COUNTED(CONES)
+    COUNTED(span <= 0.0f ? MISSED : 1.0f - sum.w <= params.stop ? OPAQUE : t < span ? CAPPED
+            : range.y < params.reach ? LEFT : REACHED)
+    const float through = 1.0f - sum.w;
+    const vec4 seen = vec4(sum.x + through * params.environment_r, sum.y + through * params.environment_g,
+                           sum.z + through * params.environment_b, occlusion);
+    if (finite(seen)) return seen;
+    COUNTED(NOT_FINITE)
+    return vec4(0.0f);
+}
+
+// v / |v|; zero where v is not finite or has no length.
+FN vec3 unit(vec3 v) {
+    const float most = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    if (!finite(vec4(v.x, v.y, v.z, 0.0f)) || most < 1.0e-30f) return vec3(0.0f, 0.0f, 0.0f);
+    const vec3 u = v / most;
+    return u / sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
+}
+
+// A tangent of a unit normal: a fixed direction, less its part along n. Smooth but for two small circles of normals, which
+// lie off every axis and diagonal, so that the frame does not jump on the walls of buildings.
+FN vec3 tangent_of(vec3 n) {
+    vec3 g = vec3(0.36f, 0.48f, 0.8f);
+    float along = n.x * g.x + n.y * g.y + n.z * g.z;
+    if (abs(along) > 0.96f) {
+        g = vec3(0.8f, -0.6f, 0.0f);
+        along = n.x * g.x + n.y * g.y;
+    }
+    return (g - along * n) / sqrt(1.0f - along * along);
+}
+
+// Receivers' places in voxels. Two vec4 a receiver: position and roughness; normal.
+FN vec3 place_of(CTX, int i, vec3 n) {
+    const vec4 place = load(receivers, 2 * i);
+    return vec3((place.x - params.origin_x) * params.per_voxel + params.normal_offset * n.x,
+                (place.y - params.origin_y) * params.per_voxel + params.normal_offset * n.y,
+                (place.z - params.origin_z) * params.per_voxel + params.normal_offset * n.z);
+}
+
+#if SPECULAR
+// Mirror direction of the view; the cone's spread follows the roughness (table of 65 values over 0..1).
+FN float spread_of(CTX, float roughness) {
+    const float r = 64.0f * clamp(roughness, 0.0f, 1.0f);
+    const int i = min(int(r), 63);
+    return table(spreads, i) + (r - float(i)) * (table(spreads, i + 1) - table(spreads, i));
+}
+FN vec4 received(CTX, int i, vec3 p, vec3 n) {
+    const vec4 to_eye = load(views, i);
+    const vec3 v = unit(vec3(to_eye.x, to_eye.y, to_eye.z));
+    if (v.x == 0.0f && v.y == 0.0f && v.z == 0.0f) return vec4(0.0f);
+    const float twice = 2.0f * (n.x * v.x + n.y * v.y + n.z * v.z);
+    const vec4 seen = cone(ctx, p, unit(twice * n - v), spread_of(ctx, load(receivers, 2 * i).w));
+    return vec4(seen.x, seen.y, seen.z, 1.0f - seen.w);
+}
+#else
+// Irradiance and visibility: the mean over the cones, or over those that the pattern deals to this receiver.
+FN vec4 received(CTX, int i, vec3 p, vec3 n) {
+    const vec3 a = tangent_of(n);
+    const vec3 b = vec3(n.y * a.z - n.z * a.y, n.z * a.x - n.x * a.z, n.x * a.y - n.y * a.x);
+    const int parts = params.pattern_x * params.pattern_y;
+    const int dealt = i % params.width % params.pattern_x + params.pattern_x * (i / params.width % params.pattern_y);
+    vec4 sum = vec4(0.0f);
+    for (int c = dealt; c < params.cones; c += parts) {
+        const vec3 tilted = vec3(table(cones, 8 * c), table(cones, 8 * c + 1), table(cones, 8 * c + 2));
+        const vec3 d = tilted.x * a + tilted.y * b + tilted.z * n;
+        sum = sum + table(cones, 8 * c + 3) * cone(ctx, p, d, table(cones, 8 * c + 4));
+    }
+    sum = float(parts) * sum;
+    const float pi = RADIANCE != 0 ? 3.14159265358979f : 0.0f;
+    return vec4(pi * sum.x, pi * sum.y, pi * sum.z, OCCLUSION != 0 ? 1.0f - sum.w : 1.0f);
+}
+#endif
+
+KERNEL(cone_trace) {
+    const int x = invocation_x();
+    const int y = invocation_y();
+    if (x >= params.width || y >= params.height) return;
+    const int i = y * params.width + x;
+    const vec4 facing = load(receivers, 2 * i + 1);
+    const vec3 n = unit(vec3(facing.x, facing.y, facing.z));
+    const vec3 p = place_of(ctx, i, n);
+    vec4 result = vec4(0.0f);
+    if (finite(vec4(p.x, p.y, p.z, 0.0f)) && n.x * n.x + n.y * n.y + n.z * n.z > 0.0f) {
+        result = received(ctx, i, p, n);
+        if (!finite(result)) {
+            COUNTED(NOT_FINITE)
+            result = vec4(0.0f);
+        }
+    } else {
+        COUNTED(DEGENERATE)
+    }
+    store(GATHERED, i, result);
+}
