@@ -234,6 +234,73 @@ END
   done
 done
 
+# ---- Scenes and pictures
+render=("$luxel" render --size 16x9 --samples 2)
+expect 2 '--scene is required' "${render[@]}" -o a.png
+expect 2 '--out is required' "${render[@]}" --scene cornell
+expect 2 'scene cornel is not known; expected cornell, two_rooms, furnace, atrium, atrium:N, or a file' "${render[@]}" --scene cornel -o a.png
+expect 2 'scene atrium:7: 7 is no number of triangles; expected 5000\.\.500000' "${render[@]}" --scene atrium:7 -o a.png
+expect 2 'missing\.obj: does not exist; check the name' "${render[@]}" --scene missing.obj -o a.png
+expect 2 'folder\.npy: is not a file' "${render[@]}" --scene folder.npy -o a.png
+expect 2 'text\.png: has the unknown extension \.png; expected \.obj, \.ply, \.gltf' "${render[@]}" --scene text.png -o a.png
+printf 'not a mesh' >text.glb
+: >empty.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n' >index.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >points.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 1 2 4\n' >nan.obj
+expect 2 'text\.glb: is not a mesh that assimp reads' "${render[@]}" --scene text.glb -o a.png
+expect 2 'empty\.obj: is empty' "${render[@]}" --scene empty.obj -o a.png
+expect 2 'index\.obj: ' "${render[@]}" --scene index.obj -o a.png
+expect 2 'points\.obj: ' "${render[@]}" --scene points.obj -o a.png
+expect 2 '--method: guess is not known; expected' "${render[@]}" --scene cornell --method guess -o a.png
+expect 2 '--show: shadows is not known; expected all, direct' "${render[@]}" --scene cornell --show shadows -o a.png
+expect 2 '--size: 16 is not understood; expected WxH' "$luxel" render --scene cornell --size 16 -o a.png
+expect 2 '--size: 0x9 is not understood' "$luxel" render --scene cornell --size 0x9 -o a.png
+expect 2 '--camera: 1,2,3 is not understood; expected ex,ey,ez,tx,ty,tz,fov' "${render[@]}" --scene cornell --camera 1,2,3 -o a.png
+expect 2 '--camera: .*an eye away from its target' "${render[@]}" --scene cornell --camera 1,2,3,1,2,3,40 -o a.png
+expect 2 '--camera: .*below 180 degrees' "${render[@]}" --scene cornell --camera 1,2,3,0,0,0,180 -o a.png
+expect 2 '--sun: 0,0,0,1 is not understood; expected a direction' "${render[@]}" --scene cornell --sun 0,0,0,1 -o a.png
+expect 2 '--sky: missing\.hdr: does not exist' "${render[@]}" --scene cornell --sky missing.hdr -o a.png
+expect 2 '--sky: .*expected radiances of 0 or more' "${render[@]}" --scene cornell --sky 1,-1,1 -o a.png
+expect 2 '--samples: 0 is out of range' "$luxel" render --scene cornell --samples 0 -o a.png
+expect 2 '--exposure: bright is not a number' "${render[@]}" --scene cornell --exposure bright -o a.png
+[[ -e a.png ]] && fail "a refused render left a file"
+expect 1 'ramp\.npy/a\.png: cannot be written' "${render[@]}" --scene cornell -o ramp.npy/a.png
+expect 0 '^render truth nan\.obj \(2 triangles\) 16x9, all; wrote nan\.png' "${render[@]}" --scene nan.obj -o nan.png
+expect 0 '^render truth cornell \(36 triangles\) 16x9, all; wrote box\.npy$' "${render[@]}" --scene cornell -o box.npy --buffers box
+grep -Eq '^  build: read [0-9.]+ ms, tree [0-9.]+ ms$' out.txt || fail "render prints no build times" "$(cat out.txt)"
+grep -Eq '^  shade: gbuffer .* path_truth .* compose ' out.txt || fail "render prints no shade times" "$(cat out.txt)"
+expect 0 'path_truth, from the cache' "${render[@]}" --scene cornell -o box2.npy
+same box.npy box2.npy
+for part in direct diffuse_indirect specular_indirect ambient_occlusion; do
+  expect 0 "$part; wrote" "${render[@]}" --scene cornell --show $part -o "box_$part.npy"
+  [[ -s box/$part.exr ]] || fail "--buffers wrote no $part.exr"
+done
+for file in position normal depth albedo roughness emission truth_indirect_t1 truth_indirect_t2 truth_indirect_error; do
+  [[ -s box/$file.exr ]] || fail "--buffers wrote no $file.exr"
+done
+expect 0 'emission' "$luxel" gaussian_blur --in box/emission.exr --sigma 0 -o box_emission.npy
+expect 0 'furnace' "${render[@]}" --scene furnace --samples 400 --camera 0.5,1,-0.9,-0.5,0.5,0.9,70 -o furnace.npy
+expect 0 'sky' "${render[@]}" --scene nan.obj --camera 0,0,-5,0,0,-9,40 --sky 1,2,3 -o sky.npy
+expect 0 'sun' "${render[@]}" --scene nan.obj --camera 0.3,0.3,1,0.3,0.3,0,1 --sky 0,0,0 --sun 0,0,1,3 --bounces 1 -o sun.npy
+expect 0 'png' "${render[@]}" --scene cornell --exposure -1.5 -o box.png
+python <<'END'
+shape, total = read('box.npy')
+assert shape == (9, 16, 3)
+parts = [read('box_%s.npy' % p)[1] for p in ('direct', 'diffuse_indirect', 'specular_indirect', 'emission')]
+worst = max(abs(sum(v) - t) / max(t, 1) for *v, t in zip(*parts, total))
+assert worst <= 1e-6, worst  # the sum of four floats, rounded each
+assert all(max(p) > 0 for p in parts)
+occlusion = read('box_ambient_occlusion.npy')
+assert occlusion[0] == (9, 16) and all(0 <= v <= 1 for v in occlusion[1]) and min(occlusion[1]) < 0.9
+furnace = read('furnace.npy')[1]
+mean = sum(furnace) / len(furnace)
+assert abs(mean - 2) <= 0.01, mean  # e / (1 - albedo); the noise of 432 x 800 paths is 0.001
+assert read('sky.npy')[1] == (1.0, 2.0, 3.0) * 144
+sun = read('sun.npy')[1]
+assert all(abs(v - 0.6 * 3 / math.pi) < 1e-5 for v in sun), sun[:3]  # assimp's grey for OBJ faces without material
+END
+
 # ---- Real files
 if [[ -d $data/photos ]]; then
   for device in $devices; do
@@ -255,6 +322,16 @@ if [[ -d $data/photos ]]; then
     head -c 20000 "$data/$file" >"cut.${file##*.}"
     expect 2 "cut\.${file##*.}: .*; copy or export the file again" "${blur[@]}" --in "cut.${file##*.}" --sigma 1 -o cut_out.npy
   done
+  for file in "$data"/meshes_adversarial/*.{obj,ply}; do
+    checks=$((checks + 1))
+    timeout 20 "$luxel" render --scene "$file" --size 8x8 --samples 1 -o mesh.npy >out.txt 2>err.txt
+    got=$?
+    [[ $got == 0 && ! -s err.txt || $got == 2 && $(wc -l <err.txt) == 1 && $(head -c 7 err.txt) == 'luxel: ' ]] ||
+      fail "render --scene $file: exit status $got" "$(cat err.txt)"
+  done
+  expect 0 '262267 triangles\) 16x9' "${render[@]}" --scene "$data/crytek_sponza/sponza.glb" --camera -60,8,0,60,20,0,60 --sky "$data/hdri/vestibule_1k.hdr" -o sponza.png
+  head -c 100000 "$data/crytek_sponza/sponza.glb" >cut.glb
+  expect 2 'cut\.glb: ' "${render[@]}" --scene cut.glb -o cut_out.png
   # OpenCV's result on the same crop, with the same taps and border.
   expect 0 'radius 6, clamp' "${blur[@]}" --in "$data/opencv_ref/in_candle.npy" --sigma 2 --radius 6 -o opencv.npy
   python "$data/opencv_ref/gauss_candle_s2_k13_REPLICATE.npy" <<'END'

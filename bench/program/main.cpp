@@ -71,6 +71,7 @@ int run(int argc, char** argv) {
   add_gaussian_blur(app, exit_status);
   add_mip_build(app, exit_status);
   add_cone_trace(app, exit_status);
+  add_render(app, exit_status);
   add_bench(app, exit_status);
   add_report(app, exit_status);
   try {

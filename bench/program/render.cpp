@@ -1,0 +1,276 @@
+#include "render.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "commands.h"
+#include "common.h"
+
+namespace luxel::program {
+namespace {
+
+using glm::dvec3;
+
+// A method that is added here is an option of the command.
+constexpr RenderMethod methods[] = {
+    {"truth", "path tracing on the CPU, two independent halves", render_truth},
+};
+
+// Pictures that can be shown alone.
+constexpr const char* shown[] = {"all", "direct", "diffuse_indirect", "specular_indirect", "ambient_occlusion"};
+
+struct Arguments {
+  std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers, show = shown[0];
+  double exposure = 0, ao_falloff = -1, ao_distance = 0;
+  int samples = 64, bounces = 0;
+};
+
+// Numbers between commas. Empty unless there are `count` and all are finite.
+std::vector<double> numbers(std::string_view text, std::size_t count) {
+  std::vector<double> values;
+  while (true) {
+    double v = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), v);
+    if (error != std::errc() || !std::isfinite(v)) return {};
+    values.push_back(v);
+    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+    if (text.empty()) break;
+    if (text.front() != ',') return {};
+    text.remove_prefix(1);
+  }
+  return values.size() == count ? values : std::vector<double>{};
+}
+
+Status wrong(const char* option, const std::string& text, const char* expected) {
+  return Status(Code::invalid_argument, fmt::format("--{}: {} is not understood; expected {}", option, text, expected));
+}
+
+Status set_camera(const std::string& text, scene::Camera& camera) {
+  const auto v = numbers(text, 7);
+  if (v.empty()) return wrong("camera", text, "ex,ey,ez,tx,ty,tz,fov: eye, target and vertical field in degrees");
+  camera = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
+  if (camera.eye == camera.target) return wrong("camera", text, "an eye away from its target");
+  if (!(camera.fov > 0 && camera.fov < 180)) return wrong("camera", text, "a field above 0 and below 180 degrees");
+  return {};
+}
+
+Status set_sun(const std::string& text, scene::Sun& sun) {
+  const auto v = numbers(text, 4);
+  if (v.empty()) return wrong("sun", text, "dx,dy,dz,E: direction towards the sun, and irradiance");
+  const dvec3 direction(v[0], v[1], v[2]);
+  const double length = glm::length(direction);
+  if (!(length > 0) || !std::isfinite(length)) return wrong("sun", text, "a direction that is not zero");
+  if (v[3] < 0) return wrong("sun", text, "an irradiance of 0 or more");
+  sun = {direction / length, dvec3(v[3])};
+  return {};
+}
+
+Status set_sky(const std::string& text, scene::Sky& sky) {
+  if (const auto v = numbers(text, 3); !v.empty()) {
+    if (std::min({v[0], v[1], v[2]}) < 0) return wrong("sky", text, "radiances of 0 or more");
+    sky = {{v[0], v[1], v[2]}, 0, 0, {}};
+    return {};
+  }
+  const Result<io::Image> read = io::read_image(text);
+  if (!read) return Status(Code::invalid_argument, fmt::format("--sky: {}", read.status().message()));
+  const io::Image& image = read.value();
+  sky = {dvec3(1), image.width, image.height, {}};
+  const std::size_t channels = static_cast<std::size_t>(image.channels);
+  for (std::size_t i = 0; i < image.pixels.size(); i += channels)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float v = image.pixels[i + (channels < 3 ? 0 : c)];
+      sky.image.push_back(v > 0 && std::isfinite(v) ? v : 0.0f);
+    }
+  return {};
+}
+
+Status set_size(const std::string& text, int& width, int& height) {
+  constexpr const char* expected = "WxH, each 1..16384";
+  const char* end = text.data() + text.size();
+  const auto w = std::from_chars(text.data(), end, width);
+  if (w.ec != std::errc() || w.ptr == end || *w.ptr != 'x') return wrong("size", text, expected);
+  const auto h = std::from_chars(w.ptr + 1, end, height);
+  if (h.ec != std::errc() || h.ptr != end) return wrong("size", text, expected);
+  if (width < 1 || height < 1 || width > 16384 || height > 16384) return wrong("size", text, expected);
+  return {};
+}
+
+template <class Value>
+io::Image image_of(const std::vector<Value>& values, const scene::GBuffer& g) {
+  constexpr int channels = sizeof(Value) / sizeof(double);
+  io::Image image{g.width, g.height, channels, {}};
+  image.pixels.reserve(values.size() * channels);
+  for (const Value& v : values)
+    for (int c = 0; c < channels; ++c) image.pixels.push_back(static_cast<float>(reinterpret_cast<const double*>(&v)[c]));
+  return image;
+}
+
+// PNG gets exposure, clamp and the sRGB curve; visibility gets none, as it is no light. Other formats get the numbers.
+io::Image picture_file(const std::string& path, const scene::Parts& parts, const Arguments& a, const scene::GBuffer& g) {
+  if (a.show == "ambient_occlusion") return image_of(parts.ambient_occlusion, g);
+  std::vector<dvec3> light = a.show == "direct"              ? parts.direct
+                             : a.show == "diffuse_indirect"  ? parts.diffuse_indirect
+                             : a.show == "specular_indirect" ? parts.specular_indirect
+                                                             : picture(parts);
+  std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (end == ".png")
+    for (dvec3& v : light) v = scene::display(v, a.exposure);
+  return image_of(light, g);
+}
+
+Status write_buffers(const std::string& folder, const scene::GBuffer& g, const scene::Parts& parts, RenderOutput& output) {
+  auto& all = output.buffers;
+  const auto put = [&](const char* name, const std::vector<float>& values, int channels) {
+    all[name] = {g.width, g.height, channels, values};
+  };
+  put("position", g.position, 3);
+  put("normal", g.normal, 3);
+  put("depth", g.depth, 1);
+  put("albedo", g.albedo, 3);
+  put("specular", g.specular, 3);
+  put("roughness", g.roughness, 1);
+  all["emission"] = image_of(parts.emission, g);
+  all["direct"] = image_of(parts.direct, g);
+  all["diffuse_indirect"] = image_of(parts.diffuse_indirect, g);
+  all["specular_indirect"] = image_of(parts.specular_indirect, g);
+  all["ambient_occlusion"] = image_of(parts.ambient_occlusion, g);
+  for (const auto& [name, image] : all)
+    if (Status s = io::write_image(fmt::format("{}/{}.exr", folder, name), image); !s) return s;
+  return {};
+}
+
+class Clock {
+ public:
+  double ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double passed = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return passed;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+int run(const Arguments& a) {
+  if (Status s = io::check_image_path(a.out); !s) return complain(s);
+  int width = 0, height = 0;
+  if (Status s = set_size(a.size, width, height); !s) return complain(s);
+  const auto method = std::find_if(std::begin(methods), std::end(methods), [&](const RenderMethod& m) { return m.name == a.method; });
+  scene::Camera camera;
+  scene::Sun sun;
+  scene::Sky sky;
+  if (!a.camera.empty())
+    if (Status s = set_camera(a.camera, camera); !s) return complain(s);
+  if (!a.sun.empty())
+    if (Status s = set_sun(a.sun, sun); !s) return complain(s);
+  if (!a.sky.empty())
+    if (Status s = set_sky(a.sky, sky); !s) return complain(s);
+
+  Clock clock;
+  auto read = scene::scene_from(a.scene);
+  if (!read) return complain(read.status(), true);
+  scene::Scene& scene = read.value();
+  if (!a.camera.empty()) scene.camera = camera;
+  if (!a.sun.empty()) scene.sun = sun;
+  if (!a.sky.empty()) scene.sky = sky;
+  std::vector<StepTime> times{{"build", "read", clock.ms()}};
+  const auto rays = scene::Rays::make(scene);
+  if (!rays) return complain(rays.status());
+  times.push_back({"build", "tree", clock.ms()});
+  const scene::GBuffer g = scene::gbuffer(rays.value(), scene.camera, width, height);
+  times.push_back({"shade", "gbuffer", clock.ms()});
+
+  const scene::Bounds box = bounds(scene);
+  truth::PathSettings settings;
+  settings.samples = a.samples;
+  settings.bounces = a.bounces;
+  settings.ao_falloff = a.ao_falloff >= 0 ? a.ao_falloff : 10 / std::max(glm::length(box.high - box.low), 1e-9);
+  if (a.ao_distance > 0) settings.ao_distance = a.ao_distance;
+  auto rendered = method->run({scene, rays.value(), g, a.device, settings});
+  if (!rendered) return complain(rendered.status());
+  RenderOutput& output = rendered.value();
+  clock.ms();
+  const scene::Parts parts = compose(g, output.lighting, scene.camera.eye, scene.sun);
+  output.times.push_back({"shade", "compose", clock.ms()});
+  times.insert(times.end(), output.times.begin(), output.times.end());
+
+  io::WriteReport changes;
+  if (Status s = io::write_image(a.out, picture_file(a.out, parts, a, g), &changes); !s) return complain(s);
+  if (!a.buffers.empty())
+    if (Status s = write_buffers(a.buffers, g, parts, output); !s) return complain(s);
+
+  fmt::print("render {} {} ({} triangles) {}x{}, {}; wrote {}{}\n", a.method, scene.name, scene.indices.size(), width, height,
+             a.show, a.out, changes_text(changes));
+  for (const char* phase : {"build", "update", "shade"}) {
+    std::string line;
+    for (const StepTime& t : times)
+      if (t.phase == phase) line += fmt::format("{}{} {:.1f} ms", line.empty() ? "" : ", ", t.step, t.ms);
+    if (!line.empty()) fmt::print("  {}: {}\n", phase, line);
+  }
+  for (const std::string& note : output.notes) fmt::print("  {}\n", note);
+  for (const std::string& note : scene.notes) fmt::print("  note: {}\n", one_line(note));
+  return done;
+}
+
+template <class Names>
+CLI::Validator one_of(const Names& names) {
+  return CLI::Validator([names](std::string& text) {
+    if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+    return fmt::format("{} is not known; expected {}", text, fmt::join(names, ", "));
+  }, "");
+}
+
+CLI::Validator within(double least, double most, bool whole) {
+  return CLI::Validator([=](std::string& text) {
+    const auto v = numbers(text, 1);
+    if (!v.empty() && v[0] >= least && v[0] <= most && (!whole || v[0] == std::floor(v[0]))) return std::string();
+    return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range", whole ? "a whole number " : "", least, most);
+  }, "");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_status) {
+  CLI::App* command = app.add_subcommand("render", "picture of a scene: direct light, diffuse and specular indirect, ambient occlusion");
+  auto a = std::make_shared<Arguments>();
+  std::vector<std::string> names, parts(std::begin(shown), std::end(shown));
+  std::string meanings;
+  for (const RenderMethod& m : methods) {
+    names.emplace_back(m.name);
+    meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", m.name, m.meaning);
+  }
+  command->add_option("--scene", a->scene, fmt::format("{}, atrium:N (N triangles), or a file: OBJ, PLY, glTF, GLB ...",
+                                                       fmt::join(scene::built_in_names(), ", ")))
+      ->required()->type_name("NAME|FILE");
+  command->add_option("-o,--out", a->out, "picture: .png (with exposure and the sRGB curve), .exr, .hdr or .npy (linear radiance)")
+      ->required()->type_name("FILE");
+  command->add_option("--method", a->method, fmt::format("{}; default {}", meanings, a->method))->type_name("NAME")->check(one_of(names));
+  command->add_option("--show", a->show, fmt::format("{}: what the picture holds; default all", fmt::join(parts, "|")))
+      ->type_name("NAME")->check(one_of(parts));
+  command->add_option("--buffers", a->buffers, "folder for the G-buffer, each part, and what the method knows, as EXR")->type_name("DIR");
+  command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")->type_name("ex,ey,ez,tx,ty,tz,fov");
+  command->add_option("--size", a->size, "pixels, each side 1..16384; default 640x360")->type_name("WxH");
+  command->add_option("--sun", a->sun, "direction towards the sun, and irradiance on a plane that faces it; default: the scene's")->type_name("dx,dy,dz,E");
+  command->add_option("--sky", a->sky, "radiance, or a latitude-longitude image, +y up; default: the scene's")->type_name("r,g,b|FILE");
+  command->add_option("--exposure", a->exposure, "stops, -60..60; of PNG alone; default 0")->type_name("EV")->check(within(-60, 60, false));
+  command->add_option("--ao-falloff", a->ao_falloff, "gamma of 1 / (1 + gamma r), 0..1e9 per scene unit; default 10 / the scene's diagonal")
+      ->type_name("NUMBER")->check(within(0, 1e9, false));
+  command->add_option("--ao-distance", a->ao_distance, "surfaces beyond it do not occlude, 1e-9..1e9 scene units; default: all occlude")
+      ->type_name("NUMBER")->check(within(1e-9, 1e9, false));
+  command->add_option("--samples", a->samples, "of truth: paths of each of its two halves, 1..1048576; default 64")
+      ->type_name("INT")->check(within(1, 1048576, true));
+  command->add_option("--bounces", a->bounces, "of truth: diffuse bounces, 0..1000; default 0: without end")
+      ->type_name("INT")->check(within(0, 1000, true));
+  add_device_option(*command, a->device);
+  command->footer("Truth runs on the CPU whatever --device says, and is kept in LUXEL_CACHE.");
+  command->callback([a, &exit_status] { exit_status = run(*a); });
+}
+
+}  // namespace luxel::program

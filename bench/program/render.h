@@ -1,0 +1,44 @@
+// Methods of `luxel render`: how the light at the pixels of a G-buffer is found.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "bench/io/image.h"
+#include "bench/scene/compose.h"
+#include "bench/truth/path_truth.h"
+
+namespace luxel::program {
+
+/// What a method is given. `scene` holds the lights and the camera of the command line.
+struct RenderInput {
+  const scene::Scene& scene;
+  const scene::Rays& rays;
+  const scene::GBuffer& gbuffer;
+  std::string device;             // as --device names it; empty: the first that works
+  truth::PathSettings settings;   // ambient occlusion's falloff and reach hold for every method
+};
+
+/// Milliseconds that a step took; `phase` is build (once for a scene), update (once for a change of light) or shade (once
+/// for a picture).
+struct StepTime {
+  std::string phase, step;
+  double ms = 0;
+};
+
+struct RenderOutput {
+  scene::Lighting lighting;
+  std::vector<StepTime> times;
+  std::vector<std::string> notes;             // lines to print
+  std::map<std::string, io::Image> buffers;   // what --buffers writes beside the G-buffer and the parts
+};
+
+struct RenderMethod {
+  const char* name;
+  const char* meaning;
+  Result<RenderOutput> (*run)(const RenderInput& input);
+};
+
+Result<RenderOutput> render_truth(const RenderInput& input);
+
+}  // namespace luxel::program

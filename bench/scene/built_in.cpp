@@ -1,0 +1,91 @@
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "bench/scene/mesh_builder.h"
+
+namespace luxel::scene {
+namespace {
+
+constexpr int fewest = 5000, most = 500000, usual = 50000;  // triangles of the atrium
+
+// Colours: the box's paints as they were measured at Cornell, reduced to linear RGB, as renderers' copies of it have them.
+Scene cornell() {
+  MeshBuilder b;
+  b.scene.name = "cornell";
+  const auto white = b.material({.name = "white", .base_color = {0.73, 0.73, 0.73}});
+  const auto red = b.material({.name = "red", .base_color = {0.63, 0.065, 0.05}});
+  const auto green = b.material({.name = "green", .base_color = {0.14, 0.45, 0.091}});
+  const auto gloss = b.material({.name = "gloss", .base_color = {0.73, 0.73, 0.73}, .roughness = 0.3, .specular = 0.04});
+  const auto lamp = b.material({.name = "lamp", .base_color = {0.78, 0.78, 0.78}, .emission = {17, 12, 4}});
+  b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, white);    // floor
+  b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, white);    // ceiling
+  b.quad({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, white);    // back
+  b.quad({-1, 0, 1}, {0, 0, -2}, {0, 2, 0}, red);      // left
+  b.quad({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, green);     // right
+  b.block({-0.65, 0, -0.6}, {-0.05, 1.2, 0}, gloss, 0.3);
+  b.block({0.05, 0, 0.0}, {0.65, 0.6, 0.6}, white, -0.3);
+  b.quad({-0.24, 1.998, -0.22}, {0.48, 0, 0}, {0, 0, 0.44}, lamp);
+  b.scene.camera = {{0, 1, 3.9}, {0, 1, 0}, 39.3};
+  return std::move(b.scene);
+}
+
+Scene two_rooms() {
+  MeshBuilder b;
+  b.scene.name = "two_rooms";
+  const auto white = b.material({.name = "white", .base_color = {0.7, 0.7, 0.7}});
+  const auto orange = b.material({.name = "orange", .base_color = {0.8, 0.4, 0.1}});
+  const auto blue = b.material({.name = "blue", .base_color = {0.15, 0.3, 0.7}});
+  const auto lamp = b.material({.name = "lamp", .base_color = {0, 0, 0}, .emission = {10, 10, 9}});
+  constexpr double half_wall = 0.01;  // rooms of 4 x 3 x 4
+  for (const double side : {-1.0, 1.0}) {
+    const double x0 = side < 0 ? -4 : half_wall, width = 4 - half_wall;
+    b.quad({x0, 0, 2}, {width, 0, 0}, {0, 0, -4}, white);
+    b.quad({x0, 3, -2}, {width, 0, 0}, {0, 0, 4}, white);
+    b.quad({x0, 0, -2}, {width, 0, 0}, {0, 3, 0}, white);
+    const double middle = 2 * side;
+    b.block({middle - 0.5, 0, -0.9}, {middle + 0.5, 1, 0.1}, side < 0 ? orange : blue, 0.4);
+  }
+  b.quad({-4, 0, 2}, {0, 0, -4}, {0, 3, 0}, orange);                  // outer walls
+  b.quad({4, 0, -2}, {0, 0, 4}, {0, 3, 0}, blue);
+  b.block({-half_wall, 0, -2}, {half_wall, 3, 2}, white);             // the thin wall
+  b.quad({-2.5, 2.99, -0.5}, {1, 0, 0}, {0, 0, 1}, lamp);
+  b.scene.camera = {{0, 1.5, 7.2}, {0, 1.5, 0}, 46};
+  return std::move(b.scene);
+}
+
+Scene furnace() {
+  MeshBuilder b;
+  b.scene.name = "furnace";
+  const auto wall = b.material({.name = "wall", .base_color = {0.5, 0.5, 0.5}, .emission = {1, 1, 1}});
+  b.block({-1, 0, -1}, {1, 2, 1}, wall);
+  b.block({-0.3, 0, -0.6}, {0.3, 0.8, 0}, wall, 0.3);
+  b.scene.camera = {{0, 1, 0.9}, {0, 0.8, 0}, 60};
+  return std::move(b.scene);
+}
+
+}  // namespace
+
+std::vector<std::string_view> built_in_names() { return {"cornell", "two_rooms", "furnace", "atrium"}; }
+
+Result<Scene> built_in(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  const std::string word = name.substr(0, colon);
+  if (colon != std::string::npos && word == "atrium") {
+    int n = 0;
+    const char* end = name.data() + name.size();
+    const auto [stop, error] = std::from_chars(name.data() + colon + 1, end, n);
+    if (error != std::errc() || stop != end || n < fewest || n > most)
+      return Status(Code::invalid_argument, fmt::format("scene {}: {} is no number of triangles; expected {}..{}", name,
+                                                        name.substr(colon + 1), fewest, most));
+    return atrium(n);
+  }
+  if (name == "cornell") return cornell();
+  if (name == "two_rooms") return two_rooms();
+  if (name == "furnace") return furnace();
+  if (name == "atrium") return atrium(usual);
+  return Status(Code::invalid_argument, fmt::format("scene {} is not known; expected {}, atrium:N, or a file", name,
+                                                    fmt::join(built_in_names(), ", ")));
+}
+
+}  // namespace luxel::scene
