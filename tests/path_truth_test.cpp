@@ -181,7 +181,9 @@ TEST(PathTruth, TheDarkRoomIsDarkAndTheLitOneIsNot) {
   EXPECT_GT(t.indirect_all.mean(0), 0.1);
   for (const std::size_t receiver : {1, 2})
     for (const auto& [name, e] : estimates(t))
-      if (name != "visibility") EXPECT_EQ(e->rgb(receiver), dvec3(0)) << name;
+      if (name != "visibility") {
+        EXPECT_EQ(e->rgb(receiver), dvec3(0)) << name;
+      }
 }
 
 TEST(PathTruth, HalvesAreIndependentAndTheErrorIsHonest) {

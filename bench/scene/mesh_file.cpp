@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <new>
 #include <numbers>
 #include <csignal>
 #include <cerrno>
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -35,25 +37,59 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// Damaged files make the mesh library run for ever or crash. So a child process reads the file first.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool memory_can_be_limited = false;  // the sanitizer reserves most of the address space
+#else
+constexpr bool memory_can_be_limited = true;
+#endif
+
+// Bytes that a file may be read into: a hundredfold, and room for small ones.
+std::uintmax_t memory_for(std::uintmax_t bytes) { return (std::uintmax_t{1} << 30) + 100 * bytes; }
+
+void limit_memory(std::uintmax_t more) {
+  std::ifstream status("/proc/self/statm");
+  std::uintmax_t pages = 0;
+  rlimit limit{};
+  if (!memory_can_be_limited || !(status >> pages) || getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, pages * static_cast<std::uintmax_t>(sysconf(_SC_PAGESIZE)) + more);
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+// Damaged files make the mesh library run for ever, take all memory, or crash. So a child process reads the file first.
 // Returns what is wrong; empty where the child came through.
 std::string probe(const std::string& path, std::uintmax_t bytes) {
+  int ends[2];
+  if (pipe(ends) != 0) return {};
   const pid_t child = fork();
-  if (child < 0) return {};  // no process to be had: the library is trusted
   if (child == 0) {
-    alarm(30 + static_cast<unsigned>(std::min<std::uintmax_t>(bytes >> 20, 3600)));
+    signal(SIGALRM, SIG_DFL);
+    alarm(10 + static_cast<unsigned>(std::min<std::uintmax_t>(bytes >> 20, 3600)));
+    limit_memory(memory_for(bytes));
+    std::string wrong;
     try {
       Assimp::Importer importer;
-      (void)importer.ReadFile(path, steps);
+      if (importer.ReadFile(path, steps) == nullptr)
+        wrong = std::string("is not a mesh that assimp reads (") + importer.GetErrorString() + ")";
+    } catch (const std::bad_alloc&) {
+      wrong = "takes more memory than a mesh of its size should";
     } catch (...) {
+      wrong = "is not a mesh that assimp reads";
     }
-    _exit(0);
+    wrong.resize(std::min<std::size_t>(wrong.size(), 1000));
+    _exit(write(ends[1], wrong.data(), wrong.size()) == static_cast<ssize_t>(wrong.size()) ? 0 : 1);
   }
+  close(ends[1]);
+  std::string wrong;
+  char buffer[1024];
+  for (ssize_t n = 0; child > 0 && ((n = read(ends[0], buffer, sizeof(buffer))) > 0 || (n < 0 && errno == EINTR));)
+    if (n > 0) wrong.append(buffer, static_cast<std::size_t>(n));
+  close(ends[0]);
+  if (child < 0) return {};  // no process to be had: the library is trusted
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!WIFSIGNALED(status)) return {};
-  return WTERMSIG(status) == SIGALRM ? "keeps the mesh library busy for ever" : "makes the mesh library crash";
+  if (!WIFSIGNALED(status)) return wrong;
+  return WTERMSIG(status) == SIGALRM ? "keeps the mesh library busy for too long" : "makes the mesh library crash";
 }
 
 glm::dvec3 rgb(const aiColor3D& c) { return {c.r, c.g, c.b}; }
@@ -223,13 +259,14 @@ class Reader {
   }
 
   void camera(const aiCamera& from, const glm::dmat4& node) {
-    const glm::dvec3 at(from.mPosition.x, from.mPosition.y, from.mPosition.z);
+    // Of a glTF file assimp repeats the node's position in the camera, and multiplies angles by the aspect.
+    const glm::dvec3 at = gltf_ ? glm::dvec3(0) : glm::dvec3(from.mPosition.x, from.mPosition.y, from.mPosition.z);
     const glm::dvec3 look(from.mLookAt.x, from.mLookAt.y, from.mLookAt.z);
-    const double aspect = from.mAspect > 0 ? from.mAspect : 1;
+    const double aspect = from.mAspect > 0 ? from.mAspect : 1, horizontal = from.mHorizontalFOV;
     Camera c;
     c.eye = glm::dvec3(node * glm::dvec4(at, 1));
     c.target = c.eye + glm::dvec3(node * glm::dvec4(look, 0));
-    c.fov = 2 * std::atan(std::tan(from.mHorizontalFOV / 2.0) / aspect) * 180 / std::numbers::pi;
+    c.fov = (gltf_ ? horizontal / aspect : 2 * std::atan(std::tan(horizontal / 2) / aspect)) * 180 / std::numbers::pi;
     has_camera_ = std::isfinite(c.eye.x + c.eye.y + c.eye.z + c.target.x + c.target.y + c.target.z) && c.eye != c.target &&
                   c.fov > 0 && c.fov < 180;
     if (has_camera_) scene.camera = c;

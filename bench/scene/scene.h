@@ -28,7 +28,7 @@ enum class AlphaMode { opaque, mask, blend };
 
 /// Metallic and roughness as in glTF 2.0.
 struct Material {
-  std::string name;
+  std::string name{};
   glm::dvec3 base_color{0.5};   // linear, 0..1; times the texture
   double alpha = 1;             // 0..1; times the texture's
   glm::dvec3 emission{0};       // radiance, both sides

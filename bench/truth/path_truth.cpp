@@ -1,5 +1,6 @@
 #include "bench/truth/path_truth.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
