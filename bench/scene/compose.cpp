@@ -23,7 +23,7 @@ double schlick(double cosine) { return std::pow(1 - std::clamp(cosine, 0.0, 1.0)
 // A and B for one roughness and view cosine: the mean of (1 - S) G2/G1 and of S G2/G1 over visible normals, S Schlick's
 // weight; the midpoints of a grid over the visible disc (Heitz 2018, section 3.2).
 glm::dvec2 integrate(double alpha, double cosine) {
-  constexpr int radii = 48, angles = 96;
+  constexpr int radii = 24, angles = 48;
   const glm::dvec3 view(std::sqrt(1 - cosine * cosine), 0, cosine);
   const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * view.x, 0, view.z));
   const glm::dvec3 t1(0, 1, 0), t2 = glm::cross(stretched, t1);

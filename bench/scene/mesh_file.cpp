@@ -1,5 +1,6 @@
 // Scenes from files, by assimp.
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -90,6 +91,17 @@ std::string probe(const std::string& path, std::uintmax_t bytes) {
   }
   if (!WIFSIGNALED(status)) return wrong;
   return WTERMSIG(status) == SIGALRM ? "keeps the mesh library busy for too long" : "makes the mesh library crash";
+}
+
+// assimp looks for the end of a PLY file's header for ever.
+bool has_whole_header(const std::string& path, std::string extension) {
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".ply") return true;
+  std::string start(1 << 16, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(in.gcount()));
+  return start.find("end_header\n") != std::string::npos || start.find("end_header\r") != std::string::npos;
 }
 
 glm::dvec3 rgb(const aiColor3D& c) { return {c.r, c.g, c.b}; }
@@ -301,6 +313,7 @@ Result<Scene> read_mesh(const std::string& path) try {
                   "expected .obj, .ply, .gltf, .glb or another that assimp reads");
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes == 0) return refuse("is empty", io::damaged);
+  if (!has_whole_header(path, extension)) return refuse("ends within the PLY header", io::damaged);
   if (const std::string wrong = probe(path, bytes); !wrong.empty()) return refuse(wrong, io::damaged);
   const aiScene* scene = importer.ReadFile(path, steps);
   if (scene == nullptr) return refuse(fmt::format("is not a mesh that assimp reads ({})", importer.GetErrorString()), io::damaged);
