@@ -34,7 +34,8 @@ PathTruth must(const Scene& s, const std::vector<Receiver>& receivers, PathSetti
 void expect_estimate(const Estimate& e, std::size_t receiver, double wanted, double rounding = 1e-9) {
   for (std::size_t c = 0; c < static_cast<std::size_t>(e.channels); ++c) {
     const std::size_t i = receiver * static_cast<std::size_t>(e.channels) + c;
-    EXPECT_LE(std::abs(e.mean(i) - wanted), sigmas * e.error[i] + rounding) << "receiver " << receiver << " channel " << c;
+    EXPECT_LE(std::abs(e.mean(i) - wanted), sigmas * e.error[i] + rounding)
+        << "receiver " << receiver << " channel " << c;
   }
 }
 
@@ -154,10 +155,12 @@ TEST(PathTruth, SkyImagesAndConstantSkiesAgree) {
   const PathTruth image = must(b.scene, list, {.samples = 4000, .seed = 7});
   for (const auto part : {&PathTruth::sky, &PathTruth::indirect, &PathTruth::glossy_sky})
     for (std::size_t i = 0; i < 6; ++i)
-      EXPECT_LE(std::abs((plain.*part).mean(i) - (image.*part).mean(i)), sigmas * std::hypot((plain.*part).error[i], (image.*part).error[i]) + 1e-9);
+      EXPECT_LE(std::abs((plain.*part).mean(i) - (image.*part).mean(i)),
+                sigmas * std::hypot((plain.*part).error[i], (image.*part).error[i]) + 1e-9);
   // A single bright texel: irradiance is radiance times the integral of cos over it, on an open plane.
   b.scene.sky.image.assign(3 * 32, 0.0f);
-  for (int c = 0; c < 3; ++c) b.scene.sky.image[3 * 8 + c] = 50.0f;  // row 1, column 0: t in 45..90 degrees, p in -180..-135
+  for (int c = 0; c < 3; ++c)
+    b.scene.sky.image[3 * 8 + c] = 50.0f;  // row 1, column 0: t in 45..90 degrees, p in -180..-135
   const PathTruth texel = must(b.scene, {up_at({-5, 0, 0})}, {.samples = 4000});
   const double wanted = 100 * (pi / 4) * 0.5 * (1 - 0.5);  // int cos t sin t dt dp
   expect_estimate(texel.sky, 0, wanted);
@@ -168,7 +171,8 @@ TEST(PathTruth, AlphaMasksLetLightThrough) {
   scene::MeshBuilder b;
   b.scene.textures.push_back({"half", 2, 1, true, {255, 255, 255, 255, 255, 255, 255, 0}});
   const auto m = b.material({.alpha_mode = scene::AlphaMode::mask, .texture = 0});
-  b.quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, m);  // opaque for x < 0, a hole for x > 0 (bilinear: between -0.5 and 0.5 it turns)
+  b.quad({-1, 1, -1}, {2, 0, 0}, {0, 0, 2},
+         m);  // opaque for x < 0, a hole for x > 0 (bilinear: between -0.5 and 0.5 it turns)
   b.scene.sun = {{0, 1, 0}, {1, 1, 1}};
   const PathTruth t = must(b.scene, {up_at({-0.4, 0, 0}), up_at({0.4, 0, 0})}, {.samples = 1});
   EXPECT_EQ(t.sun.mean(0), 0);
@@ -199,7 +203,9 @@ TEST(PathTruth, HalvesAreIndependentAndTheErrorIsHonest) {
     halves += d * d, predicted += 4 * e * e;  // var(t1 - t2) = 2 var / n; error^2 = var / (2 n)
     const double a = t.indirect.t1[i] - other.indirect.mean(i), b = t.indirect.t2[i] - other.indirect.mean(i);
     covariance += a * b, variance += other.indirect.error[i] * other.indirect.error[i];
-    if (e > 0) ++of, inside += std::abs(t.indirect.mean(i) - other.indirect.mean(i)) <= 1.96 * std::hypot(e, other.indirect.error[i]);
+    if (e > 0)
+      ++of, inside +=
+            std::abs(t.indirect.mean(i) - other.indirect.mean(i)) <= 1.96 * std::hypot(e, other.indirect.error[i]);
   }
   EXPECT_NEAR(halves / predicted, 1, 0.15);
   EXPECT_NEAR(covariance / variance, 1, 0.3);  // what is left of (x - t1)(x - t2) is x's own variance
@@ -240,8 +246,9 @@ TEST(PathTruth, ResultsDoNotDependOnThreadsAndComeBackFromTheCache) {
 TEST(PathTruth, SettingsOutOfRangeAreRefused) {
   const Scene s = scene::built_in("cornell").value();
   const auto rays = scene::Rays::make(s).value();
-  for (const PathSettings& settings : {PathSettings{.samples = 0}, PathSettings{.bounces = -1}, PathSettings{.ao_falloff = -1.0},
-                                       PathSettings{.ao_falloff = NAN}, PathSettings{.ao_distance = 0}})
+  for (const PathSettings& settings :
+       {PathSettings{.samples = 0}, PathSettings{.bounces = -1}, PathSettings{.ao_falloff = -1.0},
+        PathSettings{.ao_falloff = NAN}, PathSettings{.ao_distance = 0}})
     EXPECT_EQ(path_truth(rays, {}, settings).status().code(), Code::invalid_argument);
 }
 
@@ -309,7 +316,8 @@ class CyclesFull : public testing::Test {
 TEST_F(CyclesFull, DirectAndIndirectDiffuseLightAgree) {
   const std::string pictures = folder() + "/gbuffer_cycles_cbox/";
   if (!std::filesystem::exists(pictures)) GTEST_SKIP() << "no files in " << pictures;
-  const auto position = io::read_image(pictures + "n1_position.exr"), direct = io::read_image(pictures + "ref512_diffdir.exr"),
+  const auto position = io::read_image(pictures + "n1_position.exr"),
+             direct = io::read_image(pictures + "ref512_diffdir.exr"),
              indirect = io::read_image(pictures + "ref512_diffind.exr");
   ASSERT_TRUE(position && direct && indirect);
   const Scene s = box();
@@ -327,12 +335,14 @@ TEST_F(CyclesFull, DirectAndIndirectDiffuseLightAgree) {
       for (int dy = -2; dy <= 2 && smooth; ++dy)
         for (int dx = -2; dx <= 2 && smooth; ++dx) {
           const std::size_t j = i + static_cast<std::size_t>(dy * 256 + dx);
-          smooth = g.surface_at(j) && g.at(g.normal, j) == g.at(g.normal, i) && std::abs(g.depth[j] - g.depth[i]) < 30 && g.emission[3 * j] == 0;
+          smooth = g.surface_at(j) && g.at(g.normal, j) == g.at(g.normal, i) &&
+                   std::abs(g.depth[j] - g.depth[i]) < 30 && g.emission[3 * j] == 0;
         }
       if (!smooth) continue;
       const auto n = static_cast<std::size_t>(position.value().channels);
       for (std::size_t c = 0; c < 3; ++c)
-        offset = std::max(offset, std::abs(static_cast<double>(position.value().pixels[n * i + c]) - g.position[3 * i + c]));
+        offset =
+            std::max(offset, std::abs(static_cast<double>(position.value().pixels[n * i + c]) - g.position[3 * i + c]));
       list.push_back(all[i]);
       pixels.push_back(i);
     }
@@ -348,8 +358,8 @@ TEST_F(CyclesFull, DirectAndIndirectDiffuseLightAgree) {
       ours[0] += a, theirs[0] += x, difference[0] += std::abs(a - x);
       ours[1] += b, theirs[1] += y, difference[1] += std::abs(b - y);
     }
-    std::printf("channel %zu: direct %.4f of theirs, mean difference %.4f; indirect %.4f, %.4f\n", c, ours[0] / theirs[0],
-                difference[0] / theirs[0], ours[1] / theirs[1], difference[1] / theirs[1]);
+    std::printf("channel %zu: direct %.4f of theirs, mean difference %.4f; indirect %.4f, %.4f\n", c,
+                ours[0] / theirs[0], difference[0] / theirs[0], ours[1] / theirs[1], difference[1] / theirs[1]);
     EXPECT_NEAR(ours[0] / theirs[0], 1, 0.01);
     EXPECT_NEAR(ours[1] / theirs[1], 1, 0.05);
   }

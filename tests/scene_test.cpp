@@ -77,7 +77,8 @@ void expect_refused(const std::string& path) {
   const auto scene = scene_from(path);
   ASSERT_FALSE(scene) << path;
   EXPECT_EQ(scene.status().message().find('\n'), std::string::npos) << scene.status().message();
-  EXPECT_NE(scene.status().message().find(fs::path(path).filename().string()), std::string::npos) << scene.status().message();
+  EXPECT_NE(scene.status().message().find(fs::path(path).filename().string()), std::string::npos)
+      << scene.status().message();
 }
 
 void expect_read_or_refused(const std::string& path) {
@@ -96,7 +97,8 @@ TEST(BuiltIn, EveryNameGivesASoundScene) {
     for (std::size_t i = 0; i < s.indices.size(); ++i) {
       ASSERT_TRUE(finite(s, i));
       const glm::uvec3 t = s.indices[i];
-      EXPECT_GT(glm::length(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x])), 0) << i;
+      EXPECT_GT(glm::length(glm::cross(s.positions[t.y] - s.positions[t.x], s.positions[t.z] - s.positions[t.x])), 0)
+          << i;
     }
   }
 }
@@ -124,7 +126,8 @@ TEST(BuiltIn, TheFurnaceIsClosed) {
 TEST(BuiltIn, UnknownNamesAreRefused) {
   EXPECT_EQ(scene_from("cornel").status().code(), Code::invalid_argument);
   EXPECT_NE(scene_from("cornel").status().message().find("cornell, two_rooms, furnace, atrium"), std::string::npos);
-  for (const char* name : {"atrium:4999", "atrium:500001", "atrium:", "atrium:9e3", "atrium:-7", "cornell:3", "atrium:99999999999999"})
+  for (const char* name :
+       {"atrium:4999", "atrium:500001", "atrium:", "atrium:9e3", "atrium:-7", "cornell:3", "atrium:99999999999999"})
     EXPECT_EQ(scene_from(name).status().code(), Code::invalid_argument) << name;
 }
 
@@ -169,9 +172,12 @@ TEST(MeshFile, MissingAndBrokenFilesAreRefusedInOneLine) {
 
 TEST(MeshFile, ObjMaterialsAreRead) {
   const Folder f;
-  f.write("m.mtl", "newmtl lamp\nKd 0.1 0.2 0.3\nKe 5 6 7\nnewmtl gloss\nKd 0.4 0.4 0.4\nKs 1 1 1\nNs 126\nmap_Kd gone.png\n");
-  const Scene s = must(f.write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.25\nvt 0 0\nvt 1 1\nusemtl lamp\nf 1 2 3\n"
-                                        "usemtl gloss\nf 1/1 2/2 3/2 4/1\n"));
+  f.write("m.mtl",
+          "newmtl lamp\nKd 0.1 0.2 0.3\nKe 5 6 7\nnewmtl gloss\nKd 0.4 0.4 0.4\nKs 1 1 1\nNs 126\nmap_Kd gone.png\n");
+  const Scene s =
+      must(f.write("m.obj",
+                   "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0.25\nvt 0 0\nvt 1 1\nusemtl lamp\nf 1 2 3\n"
+                   "usemtl gloss\nf 1/1 2/2 3/2 4/1\n"));
   expect_sound(s);
   ASSERT_EQ(s.indices.size(), 3u);
   const Material& lamp = s.material_of(0);
@@ -196,7 +202,8 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const auto at = [&](std::size_t k) { return k < bytes.size() ? std::uint32_t{bytes[k]} : 0u; };
     const std::uint32_t v = at(i) << 16 | at(i + 1) << 8 | at(i + 2);
-    for (int k = 0; k < 4; ++k) text += i + static_cast<std::size_t>(k) <= bytes.size() ? digits[v >> (18 - 6 * k) & 63] : '=';
+    for (int k = 0; k < 4; ++k)
+      text += i + static_cast<std::size_t>(k) <= bytes.size() ? digits[v >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }
@@ -217,8 +224,10 @@ std::string small_gltf() {
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},"indices":2,"material":0}]}],
 "materials":[{"name":"leaf","alphaMode":"MASK","alphaCutoff":0.25,"emissiveFactor":[0,0.5,0],
 "pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1],"baseColorTexture":{"index":0},"metallicFactor":0.25,"roughnessFactor":0.5}}],
-"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,)" + base64(png.value()) + R"("}],
-"buffers":[{"byteLength":)" + std::to_string(bin.size()) + R"(,"uri":"data:application/octet-stream;base64,)" + base64(bin) + R"("}],
+"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,)" +
+         base64(png.value()) + R"("}],
+"buffers":[{"byteLength":)" +
+         std::to_string(bin.size()) + R"(,"uri":"data:application/octet-stream;base64,)" + base64(bin) + R"("}],
 "bufferViews":[{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":32},{"buffer":0,"byteOffset":80,"byteLength":12}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
 {"bufferView":1,"componentType":5126,"count":4,"type":"VEC2"},{"bufferView":2,"componentType":5123,"count":6,"type":"SCALAR"}]})";
@@ -258,9 +267,11 @@ TEST(MeshFile, GltfTexturesMasksAndCamerasAreRead) {
 TEST(MeshFile, CutAndAlteredFilesAreReadOrRefused) {
   const Folder f;
   const std::string whole = small_gltf();
-  for (std::size_t i = 1; i <= 12; ++i) expect_read_or_refused(f.write("cut.gltf", whole.substr(0, whole.size() * i / 13)));
-  const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (std::size_t i = 1; i <= 12; ++i)
+    expect_read_or_refused(f.write("cut.gltf", whole.substr(0, whole.size() * i / 13)));
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   expect_sound(must(f.write("whole.ply", ply)));
   for (std::size_t i = 1; i <= 12; ++i) expect_read_or_refused(f.write("cut.ply", ply.substr(0, ply.size() * i / 13)));
   for (std::uint32_t seed = 0; seed < 24; ++seed) {

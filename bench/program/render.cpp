@@ -25,7 +25,8 @@ constexpr RenderMethod methods[] = {
 constexpr const char* shown[] = {"all", "direct", "diffuse_indirect", "specular_indirect", "ambient_occlusion"};
 
 struct Arguments {
-  std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers, show = shown[0];
+  std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers,
+                             show = shown[0];
   double exposure = 0, ao_falloff = -1, ao_distance = 0;
   int samples = 64, bounces = 0;
 };
@@ -106,25 +107,29 @@ io::Image image_of(const std::vector<Value>& values, const scene::GBuffer& g) {
   io::Image image{g.width, g.height, channels, {}};
   image.pixels.reserve(values.size() * channels);
   for (const Value& v : values)
-    for (int c = 0; c < channels; ++c) image.pixels.push_back(static_cast<float>(reinterpret_cast<const double*>(&v)[c]));
+    for (int c = 0; c < channels; ++c)
+      image.pixels.push_back(static_cast<float>(reinterpret_cast<const double*>(&v)[c]));
   return image;
 }
 
 // PNG gets exposure, clamp and the sRGB curve; visibility gets none, as it is no light. Other formats get the numbers.
-io::Image picture_file(const std::string& path, const scene::Parts& parts, const Arguments& a, const scene::GBuffer& g) {
+io::Image picture_file(const std::string& path, const scene::Parts& parts, const Arguments& a,
+                       const scene::GBuffer& g) {
   if (a.show == "ambient_occlusion") return image_of(parts.ambient_occlusion, g);
   std::vector<dvec3> light = a.show == "direct"              ? parts.direct
                              : a.show == "diffuse_indirect"  ? parts.diffuse_indirect
                              : a.show == "specular_indirect" ? parts.specular_indirect
                                                              : picture(parts);
   std::string end = path.substr(path.size() - std::min<std::size_t>(path.size(), 4));
-  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(end.begin(), end.end(), end.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (end == ".png")
     for (dvec3& v : light) v = scene::display(v, a.exposure);
   return image_of(light, g);
 }
 
-Status write_buffers(const std::string& folder, const scene::GBuffer& g, const scene::Parts& parts, RenderOutput& output) {
+Status write_buffers(const std::string& folder, const scene::GBuffer& g, const scene::Parts& parts,
+                     RenderOutput& output) {
   auto& all = output.buffers;
   const auto put = [&](const char* name, const std::vector<float>& values, int channels) {
     all[name] = {g.width, g.height, channels, values};
@@ -162,7 +167,8 @@ int run(const Arguments& a) {
   if (Status s = io::check_image_path(a.out); !s) return complain(s);
   int width = 0, height = 0;
   if (Status s = set_size(a.size, width, height); !s) return complain(s);
-  const auto method = std::find_if(std::begin(methods), std::end(methods), [&](const RenderMethod& m) { return m.name == a.method; });
+  const auto method =
+      std::find_if(std::begin(methods), std::end(methods), [&](const RenderMethod& m) { return m.name == a.method; });
   scene::Camera camera;
   scene::Sun sun;
   scene::Sky sky;
@@ -206,8 +212,8 @@ int run(const Arguments& a) {
   if (!a.buffers.empty())
     if (Status s = write_buffers(a.buffers, g, parts, output); !s) return complain(s);
 
-  fmt::print("render {} {} ({} triangles) {}x{}, {}; wrote {}{}\n", a.method, scene.name, scene.indices.size(), width, height,
-             a.show, a.out, changes_text(changes));
+  fmt::print("render {} {} ({} triangles) {}x{}, {}; wrote {}{}\n", a.method, scene.name, scene.indices.size(), width,
+             height, a.show, a.out, changes_text(changes));
   for (const char* phase : {"build", "update", "shade"}) {
     std::string line;
     for (const StepTime& t : times)
@@ -231,14 +237,16 @@ CLI::Validator within(double least, double most, bool whole) {
   return CLI::Validator([=](std::string& text) {
     const auto v = numbers(text, 1);
     if (!v.empty() && v[0] >= least && v[0] <= most && (!whole || v[0] == std::floor(v[0]))) return std::string();
-    return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range", whole ? "a whole number " : "", least, most);
+    return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range",
+                       whole ? "a whole number " : "", least, most);
   }, "");
 }
 
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_status) {
-  CLI::App* command = app.add_subcommand("render", "picture of a scene: direct light, diffuse and specular indirect, ambient occlusion");
+  CLI::App* command = app.add_subcommand(
+      "render", "picture of a scene: direct light, diffuse and specular indirect, ambient occlusion");
   auto a = std::make_shared<Arguments>();
   std::vector<std::string> names, parts(std::begin(shown), std::end(shown));
   std::string meanings;
@@ -249,21 +257,40 @@ void add_render(CLI::App& app, int& exit_status) {
   command->add_option("--scene", a->scene, fmt::format("{}, atrium:N (N triangles), or a file: OBJ, PLY, glTF, GLB ...",
                                                        fmt::join(scene::built_in_names(), ", ")))
       ->required()->type_name("NAME|FILE");
-  command->add_option("-o,--out", a->out, "picture: .png (with exposure and the sRGB curve), .exr, .hdr or .npy (linear radiance)")
-      ->required()->type_name("FILE");
-  command->add_option("--method", a->method, fmt::format("{}; default {}", meanings, a->method))->type_name("NAME")->check(one_of(names));
+  command
+      ->add_option("-o,--out", a->out,
+                   "picture: .png (with exposure and the sRGB curve), .exr, .hdr or .npy (linear radiance)")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--method", a->method, fmt::format("{}; default {}", meanings, a->method))
+      ->type_name("NAME")
+      ->check(one_of(names));
   command->add_option("--show", a->show, fmt::format("{}: what the picture holds; default all", fmt::join(parts, "|")))
       ->type_name("NAME")->check(one_of(parts));
-  command->add_option("--buffers", a->buffers, "folder for the G-buffer, each part, and what the method knows, as EXR")->type_name("DIR");
-  command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")->type_name("ex,ey,ez,tx,ty,tz,fov");
+  command->add_option("--buffers", a->buffers, "folder for the G-buffer, each part, and what the method knows, as EXR")
+      ->type_name("DIR");
+  command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")
+      ->type_name("ex,ey,ez,tx,ty,tz,fov");
   command->add_option("--size", a->size, "pixels, each side 1..16384; default 640x360")->type_name("WxH");
-  command->add_option("--sun", a->sun, "direction towards the sun, and irradiance on a plane that faces it; default: the scene's")->type_name("dx,dy,dz,E");
-  command->add_option("--sky", a->sky, "radiance, or a latitude-longitude image, +y up; default: the scene's")->type_name("r,g,b|FILE");
-  command->add_option("--exposure", a->exposure, "stops, -60..60; of PNG alone; default 0")->type_name("EV")->check(within(-60, 60, false));
-  command->add_option("--ao-falloff", a->ao_falloff, "gamma of 1 / (1 + gamma r), 0..1e9 per scene unit; default 10 / the scene's diagonal")
-      ->type_name("NUMBER")->check(within(0, 1e9, false));
-  command->add_option("--ao-distance", a->ao_distance, "surfaces beyond it do not occlude, 1e-9..1e9 scene units; default: all occlude")
-      ->type_name("NUMBER")->check(within(1e-9, 1e9, false));
+  command
+      ->add_option("--sun", a->sun,
+                   "direction towards the sun, and irradiance on a plane that faces it; default: the scene's")
+      ->type_name("dx,dy,dz,E");
+  command->add_option("--sky", a->sky, "radiance, or a latitude-longitude image, +y up; default: the scene's")
+      ->type_name("r,g,b|FILE");
+  command->add_option("--exposure", a->exposure, "stops, -60..60; of PNG alone; default 0")
+      ->type_name("EV")
+      ->check(within(-60, 60, false));
+  command
+      ->add_option("--ao-falloff", a->ao_falloff,
+                   "gamma of 1 / (1 + gamma r), 0..1e9 per scene unit; default 10 / the scene's diagonal")
+      ->type_name("NUMBER")
+      ->check(within(0, 1e9, false));
+  command
+      ->add_option("--ao-distance", a->ao_distance,
+                   "surfaces beyond it do not occlude, 1e-9..1e9 scene units; default: all occlude")
+      ->type_name("NUMBER")
+      ->check(within(1e-9, 1e9, false));
   command->add_option("--samples", a->samples, "of truth: paths of each of its two halves, 1..1048576; default 64")
       ->type_name("INT")->check(within(1, 1048576, true));
   command->add_option("--bounces", a->bounces, "of truth: diffuse bounces, 0..1000; default 0: without end")

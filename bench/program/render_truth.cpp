@@ -34,8 +34,9 @@ Result<RenderOutput> render_truth(const RenderInput& input) {
     out.lighting.visibility.push_back(t.visibility.mean(i));
   }
   out.times.push_back({"shade", t.seconds > 0 ? "path_truth" : "path_truth, from the cache,", t.seconds * 1e3});
-  out.notes.push_back(fmt::format("standard error: emitted {:.2f} %, sky {:.2f} %, indirect {:.2f} %, all bounces {:.2f} %, visibility {:.2f} %",
-                                  noise(t.emitted), noise(t.sky), noise(t.indirect), noise(t.indirect_all), noise(t.visibility)));
+  out.notes.push_back(fmt::format(
+      "standard error: emitted {:.2f} %, sky {:.2f} %, indirect {:.2f} %, all bounces {:.2f} %, visibility {:.2f} %",
+      noise(t.emitted), noise(t.sky), noise(t.indirect), noise(t.indirect_all), noise(t.visibility)));
   for (const auto& [name, estimate] : estimates(t)) {
     out.buffers["truth_" + name + "_t1"] = image_of(estimate->t1, estimate->channels, g);
     out.buffers["truth_" + name + "_t2"] = image_of(estimate->t2, estimate->channels, g);

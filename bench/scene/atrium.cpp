@@ -55,8 +55,8 @@ class Atrium {
         const double x = -length + bay * (i + 0.5);
         arch(x, side, 3.0, 1.65, lower - 0.3);
         arch(x, side, 7.4, 1.0, upper - 0.3);
-        b.block({x - bay / 2 + 0.3, lower, side * arcade - 0.12}, {x + bay / 2 - 0.3, lower + 0.9, side * arcade + 0.12},
-                m.plaster, 0, step(0.6));
+        b.block({x - bay / 2 + 0.3, lower, side * arcade - 0.12},
+                {x + bay / 2 - 0.3, lower + 0.9, side * arcade + 0.12}, m.plaster, 0, step(0.6));
         if (i < 7) column(x + bay / 2, side, 0, 3.0, 0.34), column(x + bay / 2, side, lower, 7.4, 0.24);
         if (i % 2 == (side < 0 ? 0 : 1)) hanging(x, side, i == 5 || i == 2 ? m.lace : m.cloth[i / 2]);
       }
@@ -78,7 +78,8 @@ class Atrium {
 
   void materials() {
     b.scene.textures = {tiles(), lattice()};
-    m.floor = b.material({.name = "floor", .base_color = glm::dvec3(0.9), .roughness = 0.35, .specular = 0.04, .texture = 0});
+    m.floor =
+        b.material({.name = "floor", .base_color = glm::dvec3(0.9), .roughness = 0.35, .specular = 0.04, .texture = 0});
     m.stone = b.material({.name = "stone", .base_color = {0.62, 0.56, 0.46}, .roughness = 0.8, .specular = 0.04});
     m.plaster = b.material({.name = "plaster", .base_color = {0.72, 0.66, 0.55}});
     m.slab = b.material({.name = "slab", .base_color = {0.55, 0.5, 0.45}});
@@ -119,7 +120,8 @@ class Atrium {
       });
       for (const double pier : {-1.0, 1.0}) {
         const double from = pier < 0 ? x - bay / 2 : x + half, size = bay / 2 - half;
-        b.quad({face > 0 ? from : from + size, foot, z}, {face * size, 0, 0}, {0, top - foot, 0}, m.plaster, cells(0.5), up);
+        b.quad({face > 0 ? from : from + size, foot, z}, {face * size, 0, 0}, {0, top - foot, 0}, m.plaster, cells(0.5),
+               up);
       }
     }
     b.patch(around, deep, m.stone, [&](double u, double v) {
@@ -127,7 +129,8 @@ class Atrium {
       return glm::dvec3(c.x, c.y, side * arcade + wall * (1 - 2 * v));
     });
     for (const double pier : {-1.0, 1.0})
-      b.quad({pier < 0 ? x - bay / 2 : x + half, foot, side * arcade - wall}, {bay / 2 - half, 0, 0}, {0, 0, 2 * wall}, m.stone);
+      b.quad({pier < 0 ? x - bay / 2 : x + half, foot, side * arcade - wall}, {bay / 2 - half, 0, 0}, {0, 0, 2 * wall},
+             m.stone);
     b.quad({x - bay / 2, top, side * arcade + wall}, {bay, 0, 0}, {0, 0, -2 * wall}, m.slab);
   }
 

@@ -16,7 +16,8 @@ Scene cornell() {
   const auto white = b.material({.name = "white", .base_color = {0.73, 0.73, 0.73}});
   const auto red = b.material({.name = "red", .base_color = {0.63, 0.065, 0.05}});
   const auto green = b.material({.name = "green", .base_color = {0.14, 0.45, 0.091}});
-  const auto gloss = b.material({.name = "gloss", .base_color = {0.73, 0.73, 0.73}, .roughness = 0.3, .specular = 0.04});
+  const auto gloss =
+      b.material({.name = "gloss", .base_color = {0.73, 0.73, 0.73}, .roughness = 0.3, .specular = 0.04});
   const auto lamp = b.material({.name = "lamp", .base_color = {0.78, 0.78, 0.78}, .emission = {17, 12, 4}});
   b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, white);    // floor
   b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, white);    // ceiling

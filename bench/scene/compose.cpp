@@ -55,7 +55,8 @@ glm::dvec3 directional_albedo(glm::dvec3 specular, double roughness, double cosi
       for (int x = 0; x < side; ++x) t.push_back(integrate(alpha_of((y + 0.5) / side), (x + 0.5) / side));
     return t;
   }();
-  const double x = std::clamp(cosine * side - 0.5, 0.0, side - 1.0), y = std::clamp(roughness * side - 0.5, 0.0, side - 1.0);
+  const double x = std::clamp(cosine * side - 0.5, 0.0, side - 1.0),
+               y = std::clamp(roughness * side - 0.5, 0.0, side - 1.0);
   const int i = std::min(static_cast<int>(x), side - 2), j = std::min(static_cast<int>(y), side - 2);
   const auto at = [&](int dx, int dy) { return table[static_cast<std::size_t>((j + dy) * side + i + dx)]; };
   const glm::dvec2 ab = glm::mix(glm::mix(at(0, 0), at(1, 0), x - i), glm::mix(at(0, 1), at(1, 1), x - i), y - j);
@@ -80,7 +81,8 @@ Parts compose(const GBuffer& g, const Lighting& light, glm::dvec3 eye, const Sun
   for (std::size_t i = 0; i < n; ++i) {
     p.emission[i] = g.at(g.emission, i);
     if (!g.surface_at(i)) continue;
-    const glm::dvec3 normal = g.at(g.normal, i), view = glm::normalize(eye - g.at(g.position, i)), specular = g.at(g.specular, i);
+    const glm::dvec3 normal = g.at(g.normal, i), view = glm::normalize(eye - g.at(g.position, i)),
+                     specular = g.at(g.specular, i);
     const glm::dvec3 mirrored = directional_albedo(specular, g.roughness[i], glm::dot(normal, view));
     const glm::dvec3 diffuse = (1.0 - mirrored) * g.at(g.albedo, i) / pi;
     p.direct[i] = diffuse * (light.sun[i] + light.direct[i]) +
@@ -94,7 +96,8 @@ Parts compose(const GBuffer& g, const Lighting& light, glm::dvec3 eye, const Sun
 
 std::vector<glm::dvec3> picture(const Parts& parts) {
   std::vector<glm::dvec3> sum = parts.emission;
-  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += parts.direct[i] + parts.diffuse_indirect[i] + parts.specular_indirect[i];
+  for (std::size_t i = 0; i < sum.size(); ++i)
+    sum[i] += parts.direct[i] + parts.diffuse_indirect[i] + parts.specular_indirect[i];
   return sum;
 }
 

@@ -19,7 +19,8 @@ glm::dvec3 View::direction(double x, double y, int width, int height) const {
 
 View view_of(const Camera& camera) {
   const glm::dvec3 back = glm::normalize(camera.eye - camera.target);
-  const glm::dvec3 vertical = std::abs(back.y) < 1 - 1e-12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, back.y > 0 ? -1 : 1);
+  const glm::dvec3 vertical =
+      std::abs(back.y) < 1 - 1e-12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, back.y > 0 ? -1 : 1);
   const glm::dvec3 right = glm::normalize(glm::cross(vertical, back));
   return {camera.eye, right, glm::cross(back, right), back, std::tan(camera.fov * std::numbers::pi / 360)};
 }
@@ -35,7 +36,8 @@ GBuffer gbuffer(const Rays& rays, const Camera& camera, int width, int height) {
   const Scene& scene = rays.scene();
   const View view = view_of(camera);
   for (std::size_t i = 0; i < n; ++i) {
-    const int x = static_cast<int>(i % static_cast<std::size_t>(width)), y = static_cast<int>(i / static_cast<std::size_t>(width));
+    const int x = static_cast<int>(i % static_cast<std::size_t>(width)),
+              y = static_cast<int>(i / static_cast<std::size_t>(width));
     const glm::dvec3 direction = view.direction(x + 0.5, y + 0.5, width, height);
     const auto hit = rays.first(view.eye, direction);
     if (!hit) {

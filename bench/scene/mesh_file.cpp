@@ -95,7 +95,8 @@ std::string probe(const std::string& path, std::uintmax_t bytes) {
 
 // assimp looks for the end of a PLY file's header for ever.
 bool has_whole_header(const std::string& path, std::string extension) {
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".ply") return true;
   std::string start(1 << 16, '\0');
   std::ifstream in(path, std::ios::binary);
@@ -163,8 +164,9 @@ class Reader {
       const glm::dvec3 p(v.x, v.y, v.z);
       scene.positions.push_back(moved ? glm::dvec3(transform * glm::dvec4(p, 1)) : p);
       if (with_uvs_)
-        scene.uvs.push_back(from.HasTextureCoords(0) ? glm::dvec2(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y)
-                                                     : glm::dvec2(0));
+        scene.uvs.push_back(from.HasTextureCoords(0)
+                                ? glm::dvec2(from.mTextureCoords[0][i].x, from.mTextureCoords[0][i].y)
+                                : glm::dvec2(0));
     }
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
       const aiFace& f = from.mFaces[i];
@@ -173,7 +175,8 @@ class Reader {
         return Status(Code::io, fmt::format("has a face with a vertex that does not exist (face {} of a mesh)", i));
       const auto base = static_cast<std::uint32_t>(first);
       scene.indices.push_back({base + f.mIndices[0], base + f.mIndices[1], base + f.mIndices[2]});
-      scene.triangle_materials.push_back(std::min<std::uint32_t>(from.mMaterialIndex, static_cast<std::uint32_t>(scene.materials.size() - 1)));
+      scene.triangle_materials.push_back(
+          std::min<std::uint32_t>(from.mMaterialIndex, static_cast<std::uint32_t>(scene.materials.size() - 1)));
     }
     return {};
   }
@@ -206,7 +209,9 @@ class Reader {
       m.specular = 0.04;
     }
     if (gltf_ && from.Get(AI_MATKEY_GLTF_ALPHAMODE, text) == aiReturn_SUCCESS) {
-      m.alpha_mode = text == aiString("MASK") ? AlphaMode::mask : text == aiString("BLEND") ? AlphaMode::blend : AlphaMode::opaque;
+      m.alpha_mode = text == aiString("MASK")    ? AlphaMode::mask
+                     : text == aiString("BLEND") ? AlphaMode::blend
+                                                 : AlphaMode::opaque;
       if (from.Get(AI_MATKEY_GLTF_ALPHACUTOFF, number) == aiReturn_SUCCESS) m.alpha_cutoff = number;
     }
     for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})
@@ -214,7 +219,8 @@ class Reader {
     if (from.GetTextureCount(aiTextureType_EMISSIVE) > 0)
       scene.notes.push_back(fmt::format("material {}: its emission texture is not used", m.name));
     // Formats without a mode of their own put masks into the texture's alpha.
-    if (m.texture >= 0 && !gltf_ && m.alpha_mode == AlphaMode::opaque && has_holes(scene.textures[static_cast<std::size_t>(m.texture)]))
+    if (m.texture >= 0 && !gltf_ && m.alpha_mode == AlphaMode::opaque &&
+        has_holes(scene.textures[static_cast<std::size_t>(m.texture)]))
       m.alpha_mode = AlphaMode::mask;
     sanitize(m);
     return m;
@@ -279,8 +285,8 @@ class Reader {
     c.eye = glm::dvec3(node * glm::dvec4(at, 1));
     c.target = c.eye + glm::dvec3(node * glm::dvec4(look, 0));
     c.fov = (gltf_ ? horizontal / aspect : 2 * std::atan(std::tan(horizontal / 2) / aspect)) * 180 / std::numbers::pi;
-    has_camera_ = std::isfinite(c.eye.x + c.eye.y + c.eye.z + c.target.x + c.target.y + c.target.z) && c.eye != c.target &&
-                  c.fov > 0 && c.fov < 180;
+    has_camera_ = std::isfinite(c.eye.x + c.eye.y + c.eye.z + c.target.x + c.target.y + c.target.z) &&
+                  c.eye != c.target && c.fov > 0 && c.fov < 180;
     if (has_camera_) scene.camera = c;
   }
 
@@ -316,7 +322,8 @@ Result<Scene> read_mesh(const std::string& path) try {
   if (!has_whole_header(path, extension)) return refuse("ends within the PLY header", io::damaged);
   if (const std::string wrong = probe(path, bytes); !wrong.empty()) return refuse(wrong, io::damaged);
   const aiScene* scene = importer.ReadFile(path, steps);
-  if (scene == nullptr) return refuse(fmt::format("is not a mesh that assimp reads ({})", importer.GetErrorString()), io::damaged);
+  if (scene == nullptr)
+    return refuse(fmt::format("is not a mesh that assimp reads ({})", importer.GetErrorString()), io::damaged);
   Reader reader(*scene, path);
   if (Status s = reader.read(); !s) return refuse(s.message(), "export it again, with triangles");
   return std::move(reader.scene);

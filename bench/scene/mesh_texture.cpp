@@ -27,7 +27,8 @@ Result<Texture> decode_texture(std::span<const std::uint8_t> bytes, const std::s
   if (bytes.size() > (std::size_t{1} << 30)) return refuse("exceeds 1 GiB");
   const int size = static_cast<int>(bytes.size());
   int width = 0, height = 0, channels = 0;
-  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0) return refuse("is no picture that can be read");
+  if (stbi_info_from_memory(bytes.data(), size, &width, &height, &channels) == 0)
+    return refuse("is no picture that can be read");
   if (width < 1 || height < 1 || width > largest || height > largest)
     return refuse(fmt::format("is {}x{} texels; expected 1..{} each way", width, height, largest));
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> texels(

@@ -34,7 +34,8 @@ bool has_area(const Scene& scene, std::size_t triangle) {
 }
 
 // Embree asks for each surface that a ray meets.
-void pass_holes(const RTCFilterFunctionNArguments* args, const Scene& scene, const std::vector<std::uint32_t>& triangles) {
+void pass_holes(const RTCFilterFunctionNArguments* args, const Scene& scene,
+                const std::vector<std::uint32_t>& triangles) {
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned primitive = RTCHitN_primID(args->hit, args->N, i);
@@ -45,8 +46,10 @@ void pass_holes(const RTCFilterFunctionNArguments* args, const Scene& scene, con
 
 RTCRay ray_of(glm::dvec3 origin, glm::dvec3 direction, double reach) {
   RTCRay ray{};
-  ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y), ray.org_z = static_cast<float>(origin.z);
-  ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y), ray.dir_z = static_cast<float>(direction.z);
+  ray.org_x = static_cast<float>(origin.x), ray.org_y = static_cast<float>(origin.y),
+  ray.org_z = static_cast<float>(origin.z);
+  ray.dir_x = static_cast<float>(direction.x), ray.dir_y = static_cast<float>(direction.y),
+  ray.dir_z = static_cast<float>(direction.z);
   ray.tnear = 0;
   ray.tfar = static_cast<float>(reach);
   ray.mask = ~0u;

@@ -67,7 +67,8 @@ Surface Scene::surface(std::size_t triangle, double b1, double b2) const {
   Surface s{m.base_color, m.alpha};
   if (m.texture >= 0 && !uvs.empty()) {
     const glm::uvec3 v = indices[triangle];
-    const glm::dvec4 t = textures[static_cast<std::size_t>(m.texture)].sample(uvs[v.x] * (1 - b1 - b2) + uvs[v.y] * b1 + uvs[v.z] * b2);
+    const glm::dvec4 t =
+        textures[static_cast<std::size_t>(m.texture)].sample(uvs[v.x] * (1 - b1 - b2) + uvs[v.y] * b1 + uvs[v.z] * b2);
     s.base_color *= glm::dvec3(t);
     s.alpha *= t.a;
   }

@@ -72,7 +72,8 @@ std::optional<LightSample> Lights::emitter(glm::dvec3 from, Random& random) cons
   const double distance = glm::length(way);
   s.direction = way / distance;
   s.density = emitter_density(triangle, distance, s.direction);
-  if (!(s.density > 0) || !std::isfinite(s.density) || scene_.surface(triangle, b1, b2).alpha < 0.5) return std::nullopt;
+  if (!(s.density > 0) || !std::isfinite(s.density) || scene_.surface(triangle, b1, b2).alpha < 0.5)
+    return std::nullopt;
   s.normal = glm::normalize(doubled_area(scene_, triangle));
   if (glm::dot(s.normal, s.direction) > 0) s.normal = -s.normal;
   s.radiance = scene_.material_of(triangle).emission;
@@ -90,7 +91,8 @@ LightSample Lights::sky(Random& random) const {
   const scene::Sky& sky = scene_.sky;
   const std::size_t texel = sky_.draw(random.next());
   const std::size_t x = texel % static_cast<std::size_t>(sky.width), y = texel / static_cast<std::size_t>(sky.width);
-  const double top = std::cos(pi * static_cast<double>(y) / sky.height), bottom = std::cos(pi * static_cast<double>(y + 1) / sky.height);
+  const double top = std::cos(pi * static_cast<double>(y) / sky.height),
+               bottom = std::cos(pi * static_cast<double>(y + 1) / sky.height);
   const double c = top + (bottom - top) * random.next(), s = std::sqrt(std::max(0.0, 1 - c * c));
   const double p = (static_cast<double>(x) + random.next()) / sky.width * 2 * pi - pi;
   LightSample sample;

@@ -23,7 +23,19 @@ using scene::Hit;
 constexpr double pi = std::numbers::pi;
 constexpr std::uint32_t version = 1;  // of what is computed: a change makes old cache files useless
 
-enum Quantity { visibility, sun, emitted, sky, indirect, indirect_all, glossy_emitted, glossy_sky, glossy, glossy_all, count };
+enum Quantity {
+  visibility,
+  sun,
+  emitted,
+  sky,
+  indirect,
+  indirect_all,
+  glossy_emitted,
+  glossy_sky,
+  glossy,
+  glossy_all,
+  count
+};
 
 std::array<Estimate*, count> parts(PathTruth& t) {
   return {&t.visibility, &t.sun, &t.emitted, &t.sky, &t.indirect, &t.indirect_all,
@@ -42,7 +54,8 @@ class Tracer {
 
   dvec3 sunlight(dvec3 point, dvec3 normal) const {
     const double cosine = glm::dot(normal, scene_.sun.direction);
-    if (!(cosine > 0) || scene_.sun.irradiance == dvec3(0) || rays_.blocked(start(point, normal), scene_.sun.direction)) return dvec3(0);
+    if (!(cosine > 0) || scene_.sun.irradiance == dvec3(0) || rays_.blocked(start(point, normal), scene_.sun.direction))
+      return dvec3(0);
     return scene_.sun.irradiance * cosine;
   }
 
@@ -112,7 +125,8 @@ class Tracer {
   }
   dvec3 emission_met(const Hit& hit, dvec3 way, dvec3 normal) const {
     const dvec3 radiance = scene_.material_of(hit.triangle).emission;
-    const double aimed = lights_.emitter_density(hit.triangle, hit.distance, way), by_chance = glm::dot(normal, way) / pi;
+    const double aimed = lights_.emitter_density(hit.triangle, hit.distance, way),
+                 by_chance = glm::dot(normal, way) / pi;
     return std::isfinite(aimed) ? radiance * by_chance / (by_chance + aimed) : dvec3(0);
   }
 
@@ -202,7 +216,13 @@ std::uint64_t key_of(const scene::Scene& s, const std::vector<Receiver>& receive
   Key key;
   key.add(version).add(s.positions).add(s.uvs).add(s.indices).add(s.triangle_materials);
   for (const scene::Material& m : s.materials)
-    key.add(m.base_color).add(m.alpha).add(m.emission).add(m.metallic).add(static_cast<int>(m.alpha_mode)).add(m.alpha_cutoff).add(m.texture);
+    key.add(m.base_color)
+        .add(m.alpha)
+        .add(m.emission)
+        .add(m.metallic)
+        .add(static_cast<int>(m.alpha_mode))
+        .add(m.alpha_cutoff)
+        .add(m.texture);
   for (const scene::Texture& t : s.textures) key.add(t.width).add(t.srgb).add(t.rgba);
   key.add(s.sun.direction).add(s.sun.irradiance).add(s.sky.radiance).add(s.sky.width).add(s.sky.image);
   for (const Receiver& r : receivers) key.add(r.position).add(r.normal).add(r.view).add(r.roughness).add(r.glossy);
@@ -235,7 +255,8 @@ void save(const std::string& file, PathTruth& truth) {
   (void)write_checked(file, bytes);  // a cache that cannot be written costs time alone
 }
 
-void trace_receiver(const Tracer& tracer, const Receiver& r, std::size_t i, const PathSettings& settings, PathTruth& truth) {
+void trace_receiver(const Tracer& tracer, const Receiver& r, std::size_t i, const PathSettings& settings,
+                    PathTruth& truth) {
   const double n = settings.samples;
   const dvec3 by_sun = tracer.sunlight(r.position, r.normal);
   std::array<dvec3, count> halves[2], squares{};
@@ -284,21 +305,25 @@ std::vector<std::pair<std::string, const Estimate*>> estimates(const PathTruth& 
           {"glossy_sky", &t.glossy_sky}, {"glossy", &t.glossy}, {"glossy_all", &t.glossy_all}};
 }
 
-Result<PathTruth> path_truth(const scene::Rays& rays, const std::vector<Receiver>& receivers, const PathSettings& settings) {
+Result<PathTruth> path_truth(const scene::Rays& rays, const std::vector<Receiver>& receivers,
+                             const PathSettings& settings) {
   const auto bad = [](const char* field, double value, const char* range) {
     return Status(Code::invalid_argument, fmt::format("PathSettings.{} is {}; expected {}", field, value, range));
   };
   if (settings.samples < 1 || settings.samples > 1048576) return bad("samples", settings.samples, "1..1048576");
   if (settings.bounces < 0) return bad("bounces", settings.bounces, "0 or more");
-  if (!(settings.ao_falloff >= 0) || !std::isfinite(settings.ao_falloff)) return bad("ao_falloff", settings.ao_falloff, "0 or more");
+  if (!(settings.ao_falloff >= 0) || !std::isfinite(settings.ao_falloff))
+    return bad("ao_falloff", settings.ao_falloff, "0 or more");
   if (!(settings.ao_distance > 0)) return bad("ao_distance", settings.ao_distance, "more than 0");
 
   PathTruth truth;
   truth.visibility.channels = 1;
   for (Estimate* e : parts(truth))
-    for (auto* values : {&e->t1, &e->t2, &e->error}) values->assign(receivers.size() * static_cast<std::size_t>(e->channels), 0.0);
+    for (auto* values : {&e->t1, &e->t2, &e->error})
+      values->assign(receivers.size() * static_cast<std::size_t>(e->channels), 0.0);
   const std::string folder = settings.cached ? cache_directory() : "";
-  const std::string file = folder.empty() ? "" : fmt::format("{}/truth/{:016x}", folder, key_of(rays.scene(), receivers, settings));
+  const std::string file =
+      folder.empty() ? "" : fmt::format("{}/truth/{:016x}", folder, key_of(rays.scene(), receivers, settings));
   if (!file.empty() && load(file, truth)) return truth;
 
   const auto begin = std::chrono::steady_clock::now();
