@@ -267,7 +267,7 @@ expect 2 '--exposure: bright is not a number' "${render[@]}" --scene cornell --e
 [[ -e a.png ]] && fail "a refused render left a file"
 expect 1 'ramp\.npy/a\.png: cannot be written' "${render[@]}" --scene cornell -o ramp.npy/a.png
 expect 0 '^render truth nan\.obj \(2 triangles\) 16x9, all; wrote nan\.png' "${render[@]}" --scene nan.obj -o nan.png
-expect 0 '^render truth cornell \(36 triangles\) 16x9, all; wrote box\.npy$' "${render[@]}" --scene cornell -o box.npy --buffers box
+expect 0 '^render truth cornell \(50 triangles\) 16x9, all; wrote box\.npy$' "${render[@]}" --scene cornell -o box.npy --buffers box
 grep -Eq '^  build: read [0-9.]+ ms, tree [0-9.]+ ms$' out.txt || fail "render prints no build times" "$(cat out.txt)"
 grep -Eq '^  shade: gbuffer .* path_truth.* compose ' out.txt || fail "render prints no shade times" "$(cat out.txt)"
 expect 0 'path_truth, from the cache' "${render[@]}" --scene cornell -o box2.npy

@@ -9,7 +9,16 @@ namespace {
 
 constexpr int fewest = 5000, most = 500000, usual = 50000;  // triangles of the atrium
 
-// Colours: the box's paints as they were measured at Cornell, reduced to linear RGB, as renderers' copies of it have them.
+// A ceiling from `low` to `high` (x, z) at height y with a lamp let into it, so that the lamp's back lights nothing.
+void ceiling(MeshBuilder& b, double y, glm::dvec2 low, glm::dvec2 high, std::uint32_t plaster, glm::dvec2 lamp_low,
+             glm::dvec2 lamp_high, std::uint32_t lamp) {
+  const double x[4] = {low.x, lamp_low.x, lamp_high.x, high.x}, z[4] = {low.y, lamp_low.y, lamp_high.y, high.y};
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i)
+      b.quad({x[i], y, z[j]}, {x[i + 1] - x[i], 0, 0}, {0, 0, z[j + 1] - z[j]}, i == 1 && j == 1 ? lamp : plaster);
+}
+
+// The box's paints as they were measured at Cornell, reduced to linear RGB, as renderers' copies of it have them.
 Scene cornell() {
   MeshBuilder b;
   b.scene.name = "cornell";
@@ -20,13 +29,12 @@ Scene cornell() {
       b.material({.name = "gloss", .base_color = {0.73, 0.73, 0.73}, .roughness = 0.3, .specular = 0.04});
   const auto lamp = b.material({.name = "lamp", .base_color = {0.78, 0.78, 0.78}, .emission = {17, 12, 4}});
   b.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, white);    // floor
-  b.quad({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, white);    // ceiling
+  ceiling(b, 2, {-1, -1}, {1, 1}, white, {-0.24, -0.22}, {0.24, 0.22}, lamp);
   b.quad({-1, 0, -1}, {2, 0, 0}, {0, 2, 0}, white);    // back
   b.quad({-1, 0, 1}, {0, 0, -2}, {0, 2, 0}, red);      // left
   b.quad({1, 0, -1}, {0, 0, 2}, {0, 2, 0}, green);     // right
   b.block({-0.65, 0, -0.6}, {-0.05, 1.2, 0}, gloss, 0.3);
   b.block({0.05, 0, 0.0}, {0.65, 0.6, 0.6}, white, -0.3);
-  b.quad({-0.24, 1.998, -0.22}, {0.48, 0, 0}, {0, 0, 0.44}, lamp);
   b.scene.camera = {{0, 1, 3.9}, {0, 1, 0}, 39.3};
   return std::move(b.scene);
 }
@@ -42,7 +50,10 @@ Scene two_rooms() {
   for (const double side : {-1.0, 1.0}) {
     const double x0 = side < 0 ? -4 : half_wall, width = 4 - half_wall;
     b.quad({x0, 0, 2}, {width, 0, 0}, {0, 0, -4}, white);
-    b.quad({x0, 3, -2}, {width, 0, 0}, {0, 0, 4}, white);
+    if (side < 0)
+      ceiling(b, 3, {x0, -2}, {x0 + width, 2}, white, {-2.5, -0.5}, {-1.5, 0.5}, lamp);
+    else
+      b.quad({x0, 3, -2}, {width, 0, 0}, {0, 0, 4}, white);
     b.quad({x0, 0, -2}, {width, 0, 0}, {0, 3, 0}, white);
     const double middle = 2 * side;
     b.block({middle - 0.5, 0, -0.9}, {middle + 0.5, 1, 0.1}, side < 0 ? orange : blue, 0.4);
@@ -50,7 +61,6 @@ Scene two_rooms() {
   b.quad({-4, 0, 2}, {0, 0, -4}, {0, 3, 0}, orange);                  // outer walls
   b.quad({4, 0, -2}, {0, 0, 4}, {0, 3, 0}, blue);
   b.block({-half_wall, 0, -2}, {half_wall, 3, 2}, white);             // the thin wall
-  b.quad({-2.5, 2.99, -0.5}, {1, 0, 0}, {0, 0, 1}, lamp);
   b.scene.camera = {{0, 1.5, 7.2}, {0, 1.5, 0}, 46};
   return std::move(b.scene);
 }
