@@ -264,6 +264,20 @@ TEST(MeshFile, GltfTexturesMasksAndCamerasAreRead) {
   EXPECT_NEAR(blue.specular.b, 0.04 * 0.75 + 0.25, 1e-6);
 }
 
+// Row 0 of a texture is v = 0 in a scene; in an OBJ file v = 0 is the picture's bottom row.
+TEST(MeshFile, ObjTexturesAreTheRightWayUp) {
+  const Folder f;
+  io::WriteReport ignored;
+  const auto png = io::encode_png({1, 2, 3, {1, 0, 0, 0, 0, 1}}, "t.png", ignored);  // red over blue
+  f.write("t.png", std::string(png.value().begin(), png.value().end()));
+  f.write("t.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n");
+  const Scene s = must(
+      f.write("t.obj", "mtllib t.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.25\nvt 0 0.75\nf 1/1 2/1 3/2\n"));
+  ASSERT_TRUE(s.notes.empty()) << s.notes[0];
+  EXPECT_NEAR(s.surface(0, 0, 0).base_color.b, 1, 1e-6);
+  EXPECT_NEAR(s.surface(0, 0, 1).base_color.r, 1, 1e-6);
+}
+
 TEST(MeshFile, CutAndAlteredFilesAreReadOrRefused) {
   const Folder f;
   const std::string whole = small_gltf();
@@ -324,6 +338,12 @@ TEST(MeshFile, SponzaHasItsTrianglesAndColours) {
     EXPECT_EQ(std::count(s.triangle_materials.begin(), s.triangle_materials.end(), row), std::stol(cells[7])) << line;
   }
   EXPECT_EQ(row, 25u);
+}
+
+// assimp looks for the end of this header for ever: the child process that reads first is ended in time.
+TEST(MeshFileFull, WhatHangsTheMeshLibraryIsRefused) {
+  const Folder f;
+  expect_refused(f.write("endless.ply", "ply\nformat ascii 1.0\ncomment end_header\nelement vertex 3\nprop"));
 }
 
 TEST(MeshFileFull, CutSponzaIsRefused) {

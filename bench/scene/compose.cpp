@@ -21,7 +21,7 @@ double lambda(double cosine, double alpha) {
 double schlick(double cosine) { return std::pow(1 - std::clamp(cosine, 0.0, 1.0), 5.0); }
 
 // A and B for one roughness and view cosine: the mean of (1 - S) G2/G1 and of S G2/G1 over visible normals, S Schlick's
-// weight; the midpoints of a grid over the visible disc (Heitz 2018, section 3.2).
+// weight; midpoints of a grid over the visible disc (Heitz 2018, section 3.2), dense at its rim, where the lobe's tail is.
 glm::dvec2 integrate(double alpha, double cosine) {
   constexpr int radii = 24, angles = 48;
   const glm::dvec3 view(std::sqrt(1 - cosine * cosine), 0, cosine);
@@ -31,14 +31,14 @@ glm::dvec2 integrate(double alpha, double cosine) {
   glm::dvec2 sum(0);
   for (int i = 0; i < radii; ++i)
     for (int j = 0; j < angles; ++j) {
-      const double r = std::sqrt((i + 0.5) / radii), p = 2 * pi * (j + 0.5) / angles;
+      const double q = 1 - (i + 0.5) / radii, r = std::sqrt(1 - q * q), p = 2 * pi * (j + 0.5) / angles;
       const double a = r * std::cos(p), b = (1 - w) * std::sqrt(1 - a * a) + w * r * std::sin(p);
       const glm::dvec3 n = a * t1 + b * t2 + std::sqrt(std::max(0.0, 1 - a * a - b * b)) * stretched;
       const glm::dvec3 half = glm::normalize(glm::dvec3(alpha * n.x, alpha * n.y, std::max(0.0, n.z)));
       const double along = glm::dot(view, half), out = 2 * along * half.z - view.z;
       if (!(out > 0)) continue;
       const double shown = (1 + lambda(cosine, alpha)) / (1 + lambda(cosine, alpha) + lambda(out, alpha));
-      sum += glm::dvec2(1 - schlick(along), schlick(along)) * shown;
+      sum += glm::dvec2(1 - schlick(along), schlick(along)) * (shown * 2 * q);
     }
   return sum / static_cast<double>(radii * angles);
 }
@@ -52,11 +52,11 @@ glm::dvec3 directional_albedo(glm::dvec3 specular, double roughness, double cosi
   static const std::vector<glm::dvec2> table = [] {
     std::vector<glm::dvec2> t;
     for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) t.push_back(integrate(alpha_of((y + 0.5) / side), (x + 0.5) / side));
+      for (int x = 0; x < side; ++x)
+        t.push_back(integrate(alpha_of(y / (side - 1.0)), std::max(x / (side - 1.0), 1e-3)));
     return t;
   }();
-  const double x = std::clamp(cosine * side - 0.5, 0.0, side - 1.0),
-               y = std::clamp(roughness * side - 0.5, 0.0, side - 1.0);
+  const double x = std::clamp(cosine, 0.0, 1.0) * (side - 1), y = std::clamp(roughness, 0.0, 1.0) * (side - 1);
   const int i = std::min(static_cast<int>(x), side - 2), j = std::min(static_cast<int>(y), side - 2);
   const auto at = [&](int dx, int dy) { return table[static_cast<std::size_t>((j + dy) * side + i + dx)]; };
   const glm::dvec2 ab = glm::mix(glm::mix(at(0, 0), at(1, 0), x - i), glm::mix(at(0, 1), at(1, 1), x - i), y - j);

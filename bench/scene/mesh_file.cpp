@@ -147,7 +147,7 @@ class Reader {
  private:
   const aiScene& from_;
   fs::path folder_;
-  bool gltf_ = false, with_uvs_ = false, has_camera_ = false;
+  bool gltf_ = false, with_uvs_ = false, has_camera_ = false, told_of_colors_ = false;
   std::map<std::string, int> known_textures_;
 
   static glm::dmat4 matrix(const aiMatrix4x4& m) {
@@ -158,6 +158,8 @@ class Reader {
   Status mesh(const aiMesh& from, const glm::dmat4& transform) {
     const std::size_t first = scene.positions.size();
     if (first + from.mNumVertices > 0xffffffffu) return Status(Code::io, "holds more than 2^32 vertices");
+    if (from.HasVertexColors(0) && !told_of_colors_) scene.notes.push_back("colours of vertices are not used");
+    told_of_colors_ = told_of_colors_ || from.HasVertexColors(0);
     const bool moved = transform != glm::dmat4(1);
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
       const aiVector3D v = from.mVertices[i];
