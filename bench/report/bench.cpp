@@ -41,6 +41,8 @@ Status fill(cases::Run& run, const BenchSetting& setting) {
     if (Status status = run.write(r.name, scene::noise(static_cast<int>(texels), 1, channels(r.format), 1)); !status)
       return status;
   }
+  for (const auto& [name, values] : setting.data)
+    if (Status status = run.write(name, *values); !status) return status;
   return {};
 }
 
@@ -131,6 +133,9 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("mip_build"))
     for (const BenchSetting& setting : mip_build_settings(context->profile()))
       line("mip_build " + setting.name, setting);
+  if (wanted.wants("voxelize"))
+    for (const BenchSetting& setting : voxelize_settings(context->profile()))
+      line("voxelize " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

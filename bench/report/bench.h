@@ -17,9 +17,10 @@ struct BenchSetting {
   std::string name;
   Plan plan;
   std::vector<std::string> fill;  // resources that are filled with noise
+  std::vector<std::pair<std::string, std::shared_ptr<const std::vector<double>>>> data = {};  // resources that hold these
 };
 
-/// Fills the resources that `setting.fill` names.
+/// Fills the resources that `setting.fill` and `setting.data` name.
 Status fill(cases::Run& run, const BenchSetting& setting);
 
 /// Main settings of gaussian_blur at a size: formats, inputs and variants at sigma 4, 25 taps.
@@ -27,6 +28,9 @@ std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Pr
 
 /// Main settings of mip_build: volumes of 128^3, and depth pyramids of 1920x1080.
 std::vector<BenchSetting> mip_build_settings(const Profile& profile);
+
+/// Main settings of voxelize: the bunny of LUXEL_DATA (without it a ball of as many triangles) at 64^3 to 256^3.
+std::vector<BenchSetting> voxelize_settings(const Profile& profile);
 
 /// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,

@@ -60,7 +60,7 @@ FN bool bounds_meet(ivec3 low, ivec3 high, ivec3 c, ivec3 h) {
            span_meets(low.z, high.z, c.z, h.z);
 }
 
-// |n . (c - v)| <= sum |n_i| h_i, exactly. n: the triangle's normal, a word pair an axis; d = 2^15 c - v for a vertex v.
+// |n . (c - v)| <= sum |n_i| h_i. n: the triangle's normal, a word pair an axis; d = 2^15 c - v for a vertex v.
 FN bool plane_meets_exactly(uvec2 nx, uvec2 ny, uvec2 nz, ivec3 d, ivec3 h) {
     const uvec3 distance = add_96(add_96(product_96(nx, d.x), product_96(ny, d.y)), product_96(nz, d.z));
     const uvec3 reach = add_96(add_96(product_96(magnitude_64(nx), h.x * 32768), product_96(magnitude_64(ny), h.y * 32768)),
@@ -68,18 +68,16 @@ FN bool plane_meets_exactly(uvec2 nx, uvec2 ny, uvec2 nz, ivec3 d, ivec3 h) {
     return !negative_96(add_96(reach, distance)) && !negative_96(add_96(reach, negate_96(distance)));
 }
 
-// The same in float with an error bound: 1 yes, -1 no, 0 undecided. Each of n, d and the products and sums is within 12
-// units 2^-24 together; the bound is 16.
-FN int plane_meets_roughly(vec3 n, ivec3 d, ivec3 h) {
-    const vec3 t = vec3(n.x * float(d.x), n.y * float(d.y), n.z * float(d.z));
-    const vec3 m = abs(n);
-    const float reach = 32768.0f * (m.x * float(h.x) + m.y * float(h.y) + m.z * float(h.z));
-    const float over = abs(t.x + t.y + t.z) - reach;
-    const float slack = (abs(t.x) + abs(t.y) + abs(t.z) + reach) * 9.5367431640625e-7f;  // 2^-20
-    return over > slack ? -1 : (over < -slack ? 1 : 0);
-}
-
-FN bool plane_meets(vec3 n, uvec2 nx, uvec2 ny, uvec2 nz, ivec3 d, ivec3 h) {
-    const int rough = plane_meets_roughly(n, d, h);
-    return rough == 0 ? plane_meets_exactly(nx, ny, nz, d, h) : rough > 0;
+// All of it, for a box that meets the triangle's bounds.
+FN bool meets_exactly(ivec3 v0, ivec3 v1, ivec3 v2, ivec3 c, ivec3 h) {
+    ivec4 lines[9];
+    uvec2 n[3];
+    UNROLL for (int axis = 0; axis < 3; ++axis) {
+        const ivec2 p = projected(v0, axis);
+        const ivec2 q = projected(v1, axis);
+        const ivec2 r = projected(v2, axis);
+        n[axis] = double_area(p, q, r);
+        UNROLL for (int i = 0; i < 3; ++i) lines[3 * axis + i] = edge_of(p, q, r, n[axis], i);
+    }
+    return edges_meet(lines, c, h) && plane_meets_exactly(n[0], n[1], n[2], c * 32768 - v0, h);
 }

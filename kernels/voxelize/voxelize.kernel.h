@@ -4,6 +4,8 @@
 // dilated: the box meets the plane, and seen along the dominant axis the triangle, moved outwards by half a pixel's
 // diagonal (Crassin and Green, Octree-Based Sparse Voxelization Using the GPU Hardware Rasterizer, 2012).
 
+#define WITH_TEXTURES (TEXTURES != 0)
+
 FN ivec3 vertex(CTX, int t, int i) {
     const int at = t * TRIANGLE_WORDS + 3 * i;
     return ivec3(load(triangles, at), load(triangles, at + 1), load(triangles, at + 2));
@@ -12,6 +14,13 @@ FN ivec3 vertex(CTX, int t, int i) {
 FN int dominant_axis(vec3 n) {
     const vec3 m = abs(n);
     return m.x >= m.y && m.x >= m.z ? 0 : (m.y >= m.z ? 1 : 2);
+}
+
+// (v1 - v0) x (v2 - v0) in units of 2^-32 voxel^2, each component to three units in its last place.
+FN vec3 normal_of(ivec3 v0, ivec3 v1, ivec3 v2) {
+    return vec3(float_of_signed_64(double_area(projected(v0, 0), projected(v1, 0), projected(v2, 0))),
+                float_of_signed_64(double_area(projected(v0, 1), projected(v1, 1), projected(v2, 1))),
+                float_of_signed_64(double_area(projected(v0, 2), projected(v1, 2), projected(v2, 2))));
 }
 
 FN vec3 in_voxel(ivec3 v, ivec3 voxel) {
@@ -148,6 +157,28 @@ FN void fragment(CTX, ivec3 p, int mesh_triangle) {
 }
 #endif
 
+// The box round the centre of voxel p with half extents h, in half voxels.
+FN bool box_meets(vec4 lines[9], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2, ivec3 corner, ivec3 p, ivec3 h) {
+    const vec3 c = vec3(float(p.x - corner.x) + 0.5f, float(p.y - corner.y) + 0.5f, float(p.z - corner.z) + 0.5f);
+    const int meets = meets_roughly(lines, plane, slack, c, 0.5f * vec3(float(h.x), float(h.y), float(h.z)));
+    return meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, 2 * p + 1, h));
+}
+
+FN bool dilated_meets(ivec3 v0, ivec3 v1, ivec3 v2, int axis, ivec3 voxel) {
+    const ivec2 p = projected(v0, axis);
+    const ivec2 q = projected(v1, axis);
+    const ivec2 r = projected(v2, axis);
+    const uvec2 area = double_area(p, q, r);
+    const ivec3 c = 2 * voxel + 1;
+    bool meets = plane_meets_exactly(double_area(projected(v0, 0), projected(v1, 0), projected(v2, 0)),
+                                     double_area(projected(v0, 1), projected(v1, 1), projected(v2, 1)),
+                                     double_area(projected(v0, 2), projected(v1, 2), projected(v2, 2)), c * 32768 - v0,
+                                     ivec3(1, 1, 1));
+    UNROLL for (int i = 0; i < 3; ++i)
+        meets = meets && edge_meets(edge_of(p, q, r, area, i), projected(c, axis), ivec2(1, 1));
+    return meets;
+}
+
 FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const ivec3 extent = ivec3(params.width, params.height, params.depth);
     const ivec3 v0 = vertex(ctx, t, 0);
@@ -159,18 +190,24 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const ivec3 first = max(corner, first_voxel(low, ivec3(params.first_x, params.first_y, params.first_z)));
     const ivec3 last = min(corner + (BRICK - 1), last_voxel(high, ivec3(params.last_x, params.last_y, params.last_z)));
 
-    ivec4 lines[9];
-    uvec2 n[3];
-    UNROLL for (int axis = 0; axis < 3; ++axis) {
-        const ivec2 p = projected(v0, axis);
-        const ivec2 q = projected(v1, axis);
-        const ivec2 r = projected(v2, axis);
-        n[axis] = double_area(p, q, r);
-        UNROLL for (int i = 0; i < 3; ++i) lines[3 * axis + i] = edge_of(p, q, r, n[axis], i);
-    }
-    const vec3 rough = vec3(float_of_signed_64(n[0]), float_of_signed_64(n[1]), float_of_signed_64(n[2]));
-    const int dominant = dominant_axis(rough);
+    // Float first, in voxels from a corner of the brick; what that leaves open goes to the integers.
+    const vec3 a = voxels_of(v0 - 65536 * corner);
+    const vec3 b = voxels_of(v1 - 65536 * corner);
+    const vec3 c = voxels_of(v2 - 65536 * corner);
+    const vec3 ab = voxels_of(v1 - v0);
+    const vec3 bc = voxels_of(v2 - v1);
+    const vec3 ca = voxels_of(v0 - v2);
+    vec4 lines[9];
+    UNROLL for (int i = 0; i < 9; ++i)
+        lines[i] = rough_edge(seen_along(a, i / 3), seen_along(b, i / 3), seen_along(c, i / 3), seen_along(ab, i / 3),
+                              seen_along(bc, i / 3), seen_along(ca, i / 3), 8.0f, i % 3);
+    const vec4 plane = rough_plane(a, ab, bc);
+    const float slack = plane_slack(a, ab, bc, plane, 8.0f);
 
+    // The normal, where something needs it: from the integers, so that slivers have one.
+    vec3 rough = vec3(0.0f, 0.0f, 0.0f);
+    if (NORMAL != 0 || MODE == MODE_DILATED || WITH_TEXTURES) rough = normal_of(v0, v1, v2);
+    const int dominant = dominant_axis(rough);
     const int material = clamp(load(triangles, t * TRIANGLE_WORDS + 9), 0, params.materials - 1);
     const vec4 colour = load(materials, 2 * material);
     const vec4 emission = load(materials, 2 * material + 1);
@@ -199,39 +236,28 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const ivec3 p = ivec3(x, y, z);
-                const ivec3 c = 2 * p + 1;
                 bool meets = false;
-                if (MODE == MODE_CONSERVATIVE) {
-                    const ivec3 h = ivec3(1, 1, 1);
-                    meets = plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) && edges_meet(lines, c, h);
-                } else if (MODE == MODE_THIN) {
+                if (MODE == MODE_THIN) {
                     UNROLL for (int axis = 0; axis < 3; ++axis) {
                         const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
-                        meets = meets || (bounds_meet(low, high, c, h) &&
-                                          plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) &&
-                                          edges_meet(lines, c, h));
+                        meets = meets || (bounds_meet(low, high, 2 * p + 1, h) &&
+                                          box_meets(lines, plane, slack, v0, v1, v2, corner, p, h));
                     }
+                } else if (MODE == MODE_DILATED) {
+                    meets = dilated_meets(v0, v1, v2, dominant, p);
                 } else {
-                    const ivec3 h = ivec3(1, 1, 1);
-                    meets = plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h);
-                    UNROLL for (int i = 0; i < 9; ++i)
-                        meets = meets && (i / 3 != dominant || edge_meets(lines[i], projected(c, i / 3), ivec2(1, 1)));
+                    meets = box_meets(lines, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
                 }
                 if (!meets) continue;
                 vec4 paint = colour;
                 vec4 part = vec4(0.0f);
-#if TEXTURES
-                const bool shares = true;
-#else
-                const bool shares = MERGE == MERGE_EXACT;
-#endif
-                const vec3 a = in_voxel(v0, p);
-                const vec3 b = in_voxel(v1, p);
-                const vec3 d = in_voxel(v2, p);
-                if (shares) part = part_in_cube(a, b, d);
+                const vec3 q0 = in_voxel(v0, p);
+                const vec3 q1 = in_voxel(v1, p);
+                const vec3 q2 = in_voxel(v2, p);
+                if (MERGE == MERGE_EXACT || WITH_TEXTURES) part = part_in_cube(q0, q1, q2);
 #if TEXTURES
                 if (density > 0.0f) {
-                    const vec2 uv = uv_at(ctx, t, vec3(part.x, part.y, part.z), a, b, d, rough / 4294967296.0f, dominant);
+                    const vec2 uv = uv_at(ctx, t, vec3(part.x, part.y, part.z), q0, q1, q2, rough / 4294967296.0f, dominant);
                     const vec4 found = texture_at(ctx, entry, uv, density);
                     if (cutoff > 0.0f && found.w < cutoff) continue;
                     paint = vec4(colour.x * found.x, colour.y * found.y, colour.z * found.z,

@@ -1,5 +1,5 @@
 /* BUILD
-   math: wide_int triangle_box voxel_grid clip texture
+   math: wide_int triangle_box triangle_filter voxel_grid clip texture
    module plain: LIST=0 TEXTURES=0
    module list: LIST=1 TEXTURES=0
    module textured: LIST=0 TEXTURES=1

@@ -33,31 +33,37 @@ FN void refine(CTX, int t, ivec3 from, ivec3 to) {
     const ivec3 first = first_voxel(low, from);
     const ivec3 last = last_voxel(high, to);
     if (first.x > last.x || first.y > last.y || first.z > last.z) return;
-    const ivec3 a = first / SIDE;
-    const ivec3 b = last / SIDE;
-    if (a.x == b.x && a.y == b.y && a.z == b.z && inside(low, high, from * 65536, (to + 1) * 65536)) {
-        keep(ctx, t, a, grid);
+    const ivec3 begin = first / SIDE;
+    const ivec3 end = last / SIDE;
+    if (begin.x == end.x && begin.y == end.y && begin.z == end.z && inside(low, high, from * 65536, (to + 1) * 65536)) {
+        keep(ctx, t, begin, grid);
         return;
     }
-    ivec4 lines[9];
-    uvec2 n[3];
-    UNROLL for (int axis = 0; axis < 3; ++axis) {
-        const ivec2 p = projected(v0, axis);
-        const ivec2 q = projected(v1, axis);
-        const ivec2 r = projected(v2, axis);
-        n[axis] = double_area(p, q, r);
-        UNROLL for (int i = 0; i < 3; ++i) lines[3 * axis + i] = edge_of(p, q, r, n[axis], i);
-    }
-    const vec3 rough = vec3(float_of_signed_64(n[0]), float_of_signed_64(n[1]), float_of_signed_64(n[2]));
-    for (int z = a.z; z <= b.z; ++z)
-        for (int y = a.y; y <= b.y; ++y)
-            for (int x = a.x; x <= b.x; ++x) {
+    // Float first, in voxels from the first voxel; what that leaves open goes to the integers.
+    const float span = float(max(last.x - first.x, max(last.y - first.y, last.z - first.z)) + 1);
+    const vec3 a = voxels_of(v0 - 65536 * first);
+    const vec3 b = voxels_of(v1 - 65536 * first);
+    const vec3 c = voxels_of(v2 - 65536 * first);
+    const vec3 ab = voxels_of(v1 - v0);
+    const vec3 bc = voxels_of(v2 - v1);
+    const vec3 ca = voxels_of(v0 - v2);
+    vec4 lines[9];
+    UNROLL for (int i = 0; i < 9; ++i)
+        lines[i] = rough_edge(seen_along(a, i / 3), seen_along(b, i / 3), seen_along(c, i / 3), seen_along(ab, i / 3),
+                              seen_along(bc, i / 3), seen_along(ca, i / 3), span, i % 3);
+    const vec4 plane = rough_plane(a, ab, bc);
+    const float slack = plane_slack(a, ab, bc, plane, span);
+    for (int z = begin.z; z <= end.z; ++z)
+        for (int y = begin.y; y <= end.y; ++y)
+            for (int x = begin.x; x <= end.x; ++x) {
                 const ivec3 block = ivec3(x, y, z);
-                const ivec3 begin = max(block * SIDE, first);
-                const ivec3 end = min(block * SIDE + (SIDE - 1), last) + 1;
-                const ivec3 c = begin + end;
-                const ivec3 h = end - begin;
-                if (plane_meets(rough, n[0], n[1], n[2], c * 32768 - v0, h) && edges_meet(lines, c, h))
+                const ivec3 from_voxel = max(block * SIDE, first);
+                const ivec3 to_voxel = min(block * SIDE + (SIDE - 1), last) + 1;
+                const ivec3 centre = from_voxel + to_voxel;  // half voxels
+                const ivec3 size = to_voxel - from_voxel;
+                const int meets =
+                    meets_roughly(lines, plane, slack, 32768.0f * voxels_of(centre - 2 * first), 32768.0f * voxels_of(size));
+                if (meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, centre, size)))
                     keep(ctx, t, block, grid);
             }
 }

@@ -1,5 +1,5 @@
 /* BUILD
-   math: wide_int triangle_box voxel_grid
+   math: wide_int triangle_box triangle_filter voxel_grid
    module root_blocks: ROOT=1 MARK=0
    module root_bricks: ROOT=1 MARK=1
    module bricks: ROOT=0 MARK=1
