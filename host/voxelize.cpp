@@ -252,7 +252,7 @@ class Voxelization {
   }
 
   void merge() {
-    const auto voxels = launch(static_cast<std::int64_t>(room_.bricks) * brick_voxels);
+    const auto voxels = launch(static_cast<std::int64_t>(room_.bricks) * brick_voxels / 32 * words_);
     const bool exact = p_.merging == VoxelizeMerging::exact;
     planner_.pass("voxelize_zero", exact ? "exact" : "packed", "voxelize zero", voxels, line,
                   {{"capacity", room_.bricks}, {"words", words_}, {"stride", stride(voxels)}}, {},

@@ -1,4 +1,5 @@
-// The part of a triangle in the unit cube, by clipping at its six faces (Sutherland and Hodgman 1974).
+// The part of a triangle in the unit cube, by clipping at its faces (Sutherland and Hodgman, Reentrant Polygon Clipping,
+// 1974).
 #define CLIP_VERTICES 12  // nine, and a few that rounding may make of a polygon that is no longer quite convex
 
 FN float coordinate(vec3 v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
@@ -7,44 +8,53 @@ FN vec3 cross_of(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
+// Keeps the points of a polygon with `inside` (an expression in p) >= 0; IN_Q is the same in q.
+#define CLIP_AT(inside_p, inside_q) \
+    { \
+        int kept = 0; \
+        vec3 p = points[count - 1]; \
+        float dp = inside_p; \
+        for (int i = 0; i < count; ++i) { \
+            const vec3 q = points[i]; \
+            const float dq = inside_q; \
+            if ((dp >= 0.0f) != (dq >= 0.0f) && kept < CLIP_VERTICES) clipped[kept++] = p + dp / (dp - dq) * (q - p); \
+            if (dq >= 0.0f && kept < CLIP_VERTICES) clipped[kept++] = q; \
+            p = q; \
+            dp = dq; \
+        } \
+        count = kept; \
+        for (int i = 0; i < count; ++i) points[i] = clipped[i]; \
+    }
+
 // Its centroid and area. An empty part has area 0 and the centroid of the triangle, moved into the cube.
 FN vec4 part_in_cube(vec3 a, vec3 b, vec3 c) {
-    vec3 from[CLIP_VERTICES];
-    vec3 to[CLIP_VERTICES];
-    from[0] = a;
-    from[1] = b;
-    from[2] = c;
+    vec3 points[CLIP_VERTICES];
+    vec3 clipped[CLIP_VERTICES];
+    points[0] = a;
+    points[1] = b;
+    points[2] = c;
     int count = 3;
-    for (int face = 0; face < 6; ++face) {
-        const int axis = face >> 1;
-        const float side = (face & 1) == 0 ? 1.0f : -1.0f;  // the lower face keeps what is above
-        const float bound = (face & 1) == 0 ? 0.0f : -1.0f;
-        bool crosses = false;
-        for (int i = 0; i < count; ++i) crosses = crosses || side * coordinate(from[i], axis) < bound;
-        if (!crosses) continue;
-        int kept = 0;
-        for (int i = 0; i < count; ++i) {
-            const vec3 p = from[i];
-            const vec3 q = from[i + 1 < count ? i + 1 : 0];
-            const float dp = side * coordinate(p, axis) - bound;
-            const float dq = side * coordinate(q, axis) - bound;
-            if (dp >= 0.0f && kept < CLIP_VERTICES) to[kept++] = p;
-            if ((dp >= 0.0f) != (dq >= 0.0f) && kept < CLIP_VERTICES) to[kept++] = p + dp / (dp - dq) * (q - p);
-        }
-        count = kept;
-        for (int i = 0; i < count; ++i) from[i] = to[i];
-    }
+    const vec3 low = min(a, min(b, c));
+    const vec3 high = max(a, max(b, c));
+    if (low.x < 0.0f) CLIP_AT(p.x, q.x)
+    if (high.x > 1.0f && count > 0) CLIP_AT(1.0f - p.x, 1.0f - q.x)
+    if (low.y < 0.0f && count > 0) CLIP_AT(p.y, q.y)
+    if (high.y > 1.0f && count > 0) CLIP_AT(1.0f - p.y, 1.0f - q.y)
+    if (low.z < 0.0f && count > 0) CLIP_AT(p.z, q.z)
+    if (high.z > 1.0f && count > 0) CLIP_AT(1.0f - p.z, 1.0f - q.z)
     vec3 twice = vec3(0.0f, 0.0f, 0.0f);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     float weight = 0.0f;
     for (int i = 2; i < count; ++i) {
-        const vec3 u = cross_of(from[i - 1] - from[0], from[i] - from[0]);
-        const float area = sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
-        moment = moment + area * (from[i - 1] + from[i] - 2.0f * from[0]);
-        weight = weight + area;
+        const vec3 u = cross_of(points[i - 1] - points[0], points[i] - points[0]);
         twice = twice + u;
+#if CLIP_CENTROID
+        const float area = sqrt(u.x * u.x + u.y * u.y + u.z * u.z);
+        moment = moment + area * (points[i - 1] + points[i] - 2.0f * points[0]);
+        weight = weight + area;
+#endif
     }
     vec3 m = clamp((a + b + c) / 3.0f, vec3(0.0f, 0.0f, 0.0f), vec3(1.0f, 1.0f, 1.0f));
-    if (weight > 0.0f) m = from[0] + moment / (3.0f * weight);
+    if (weight > 0.0f) m = points[0] + moment / (3.0f * weight);
     return vec4(m.x, m.y, m.z, 0.5f * sqrt(twice.x * twice.x + twice.y * twice.y + twice.z * twice.z));
 }

@@ -1,88 +1,104 @@
 // The tests of triangle_box.h in float, with error bounds: yes, no, or undecided. Points in voxels relative to a corner near
-// the boxes, |x| < `span` for all of these. Vertices may lie far off; their edges come from the integers, so that every
-// input is within 2^-24 of its size, and a sum of products within 2^-21 of the sum of their sizes (bounds: twice that).
+// the boxes, at most `span` from it. Vertices may lie far off; their edges come from the integers, so that every input is
+// within 2^-24 of its size, and a sum of products within 2^-21 of the sum of their sizes (bounds: twice that).
+// The three half planes of a view are the first three components of vec4s; the fourth is everything (0 >= 0).
 
 FN vec3 voxels_of(ivec3 v) { return vec3(float(v.x), float(v.y), float(v.z)) / 65536.0f; }
 
-FN vec2 seen_along(vec3 v, int axis) {
-    return axis == 0 ? vec2(v.y, v.z) : (axis == 1 ? vec2(v.z, v.x) : vec2(v.x, v.y));
+// The two coordinates of three points (or edges) that are seen along an axis.
+FN vec4 across(vec3 a, vec3 b, vec3 c, int axis) {
+    return axis == 0 ? vec4(a.y, b.y, c.y, 0.0f) : (axis == 1 ? vec4(a.z, b.z, c.z, 0.0f) : vec4(a.x, b.x, c.x, 0.0f));
+}
+FN vec4 upward(vec3 a, vec3 b, vec3 c, int axis) {
+    return axis == 0 ? vec4(a.z, b.z, c.z, 0.0f) : (axis == 1 ? vec4(a.x, b.x, c.x, 0.0f) : vec4(a.y, b.y, c.y, 0.0f));
 }
 
-FN float rough_area(vec2 e, vec2 f) { return e.x * f.y - e.y * f.x; }
-FN float area_slack(vec2 e, vec2 f) { return 4.76837158203125e-7f * (abs(e.x * f.y) + abs(e.y * f.x)); }  // 2^-21
+// Twice the area of a triangle that is seen with edges (x, y), signed, and a bound of its error.
+FN float seen_area(vec4 x, vec4 y) { return x.x * y.y - y.x * x.y; }
+FN float seen_slack(vec4 x, vec4 y) { return 4.76837158203125e-7f * (abs(x.x * y.y) + abs(y.x * x.y)); }  // 2^-21
 
-// The half plane left of p + t e (sign_ 1) or right of it: a x + b y + d >= 0, and the bound of its error.
-FN vec4 rough_line(vec2 p, vec2 e, float sign_, float span) {
-    const float slack = 9.5367431640625e-7f * (abs(e.y) * (abs(p.x) + span) + abs(e.x) * (abs(p.y) + span));
-    return vec4(-sign_ * e.y, sign_ * e.x, sign_ * (e.y * p.x - e.x * p.y), slack);
-}
+#define VIEW_UNKNOWN 3.0f
 
-FN bool between(vec2 v, vec2 p, vec2 q) {
-    return min(p.x, q.x) <= v.x && v.x <= max(p.x, q.x) && min(p.y, q.y) <= v.y && v.y <= max(p.y, q.y);
-}
-
-// Both sides of the edge p + t e of a triangle that is seen as a line, or nearly so: it departs from it by `thick` at most
-// (an area), and its third corner r not beyond the edge's ends. The third half plane is everything.
-FN vec4 rough_side(vec2 p, vec2 q, vec2 r, vec2 e, float thick, float span, int which) {
-    if (!between(r, p, q)) return vec4(0.0f, 0.0f, 0.0f, 1.0e30f);
-    // Along an axis: the bounds say all.
-    if (which == 2 || e.x == 0.0f || e.y == 0.0f) return vec4(0.0f, 0.0f, 1.0f, 0.0f);
-    const vec4 line = rough_line(p, e, which == 0 ? 1.0f : -1.0f, span);
-    return vec4(line.x, line.y, line.z, line.w + thick);
-}
-
-// Half planes 0, 1, 2 of the triangle p, q, r with edges e, f, g, seen along an axis.
-FN vec4 rough_edge(vec2 p, vec2 q, vec2 r, vec2 e, vec2 f, vec2 g, float span, int which) {
-    const float area = rough_area(e, f);
-    const float slack = area_slack(e, f);
-    if (abs(area) > slack) {
-        const float turn = area < 0.0f ? -1.0f : 1.0f;
-        return which == 0 ? rough_line(p, e, turn, span)
-                          : (which == 1 ? rough_line(q, f, turn, span) : rough_line(r, g, turn, span));
+// How a triangle with corners (px, py) and edges (ex, ey) from each to the next is seen. x: 1 counter-clockwise, -1
+// clockwise, 0 as a line, or nearly so; then y: the edge that stands for it, or VIEW_UNKNOWN; z: how far (an area) the
+// third corner may depart from that edge's line. It does not lie beyond the edge's ends.
+FN vec4 view_of(vec4 px, vec4 py, vec4 ex, vec4 ey) {
+    const float area = seen_area(ex, ey);
+    const float slack = seen_slack(ex, ey);
+    if (abs(area) > slack) return vec4(area < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f, 0.0f);
+    const vec4 size = abs(ex) + abs(ey);
+    const float least_x = min(px.x, min(px.y, px.z));
+    const float most_x = max(px.x, max(px.y, px.z));
+    const float least_y = min(py.x, min(py.y, py.z));
+    const float most_y = max(py.x, max(py.y, py.z));
+    float edge = 2.0f;
+    vec4 ends = vec4(px.z, py.z, px.x, py.x);
+    if (size.x >= size.y && size.x >= size.z) {
+        edge = 0.0f;
+        ends = vec4(px.x, py.x, px.y, py.y);
+    } else if (size.y >= size.z) {
+        edge = 1.0f;
+        ends = vec4(px.y, py.y, px.z, py.z);
     }
-    const float a = abs(e.x) + abs(e.y);
-    const float b = abs(f.x) + abs(f.y);
-    const float c = abs(g.x) + abs(g.y);
-    if (a >= b && a >= c) return rough_side(p, q, r, e, 4.0f * slack, span, which);
-    if (b >= c) return rough_side(q, r, p, f, 4.0f * slack, span, which);
-    return rough_side(r, p, q, g, 4.0f * slack, span, which);
+    const bool whole = min(ends.x, ends.z) == least_x && max(ends.x, ends.z) == most_x && min(ends.y, ends.w) == least_y &&
+                       max(ends.y, ends.w) == most_y;
+    return vec4(0.0f, whole ? edge : VIEW_UNKNOWN, 4.0f * slack, 0.0f);
+}
+
+FN float of_edge(vec4 v, float edge) { return edge == 0.0f ? v.x : (edge == 1.0f ? v.y : v.z); }
+// An edge of a view, forward and backward. Along an axis it is nothing: there the bounds say all.
+FN vec4 both_ways(vec4 v, vec4 other, vec4 view) {
+    const float e = of_edge(v, view.y);
+    const bool nothing = view.y == VIEW_UNKNOWN || e == 0.0f || of_edge(other, view.y) == 0.0f;
+    return nothing ? vec4(0.0f) : vec4(e, -e, 0.0f, 0.0f);
+}
+FN vec4 twice_of(vec4 v, vec4 view) {
+    const float p = of_edge(v, view.y);
+    return vec4(p, p, 0.0f, 0.0f);
+}
+
+// Half planes a x + b y + d >= 0 of points p and edges e that go counter-clockwise: a = -ey, b = ex, and these.
+FN vec4 line_offset(vec4 px, vec4 py, vec4 ex, vec4 ey) { return ey * px - ex * py; }
+FN vec4 line_slack(vec4 px, vec4 py, vec4 ex, vec4 ey, float span, vec4 view) {
+    if (view.x == 0.0f && view.y == VIEW_UNKNOWN) return vec4(1.0e30f);
+    const vec4 s = vec4(span);
+    const vec4 slack = 9.5367431640625e-7f * (abs(ey) * (abs(px) + s) + abs(ex) * (abs(py) + s));
+    return slack + view.z * vec4(1.0f, 1.0f, 0.0f, 0.0f);
 }
 
 // n . x + d of a triangle with a corner p and edges e and f, and the bound of its error: below 0 where the triangle lies
 // across an axis, so that its bounds say all.
 FN vec4 rough_plane(vec3 p, vec3 e, vec3 f) {
-    const vec3 n = vec3(rough_area(seen_along(e, 0), seen_along(f, 0)), rough_area(seen_along(e, 1), seen_along(f, 1)),
-                        rough_area(seen_along(e, 2), seen_along(f, 2)));
+    const vec3 n = vec3(e.y * f.z - e.z * f.y, e.z * f.x - e.x * f.z, e.x * f.y - e.y * f.x);
     return vec4(n.x, n.y, n.z, -(n.x * p.x + n.y * p.y + n.z * p.z));
 }
-FN float plane_slack(vec3 p, vec3 e, vec3 f, vec4 plane, float span) {
+FN float plane_slack(vec3 p, vec3 e, vec3 f, float span) {
     if ((e.x == 0.0f && f.x == 0.0f) || (e.y == 0.0f && f.y == 0.0f) || (e.z == 0.0f && f.z == 0.0f)) return -1.0f;
-    const vec3 slack = vec3(area_slack(seen_along(e, 0), seen_along(f, 0)), area_slack(seen_along(e, 1), seen_along(f, 1)),
-                            area_slack(seen_along(e, 2), seen_along(f, 2)));
-    return (2.0f * slack.x + 9.5367431640625e-7f * abs(plane.x)) * (abs(p.x) + span) +
-           (2.0f * slack.y + 9.5367431640625e-7f * abs(plane.y)) * (abs(p.y) + span) +
-           (2.0f * slack.z + 9.5367431640625e-7f * abs(plane.z)) * (abs(p.z) + span);
+    const vec3 g = abs(e);
+    const vec3 h = abs(f);
+    const vec3 n = vec3(g.y * h.z + g.z * h.y, g.z * h.x + g.x * h.z, g.x * h.y + g.y * h.x);  // |plane| and its error
+    return 1.9073486328125e-6f * (n.x * (abs(p.x) + span) + n.y * (abs(p.y) + span) + n.z * (abs(p.z) + span));
 }
 
 #define ROUGH_NO -1
 #define ROUGH_YES 1
 #define ROUGH_UNDECIDED 0
 
-// The box round c with half extents h (voxels) against the half planes and the plane; its bounds are taken to meet.
-FN int meets_roughly(vec4 lines[9], vec4 plane, float slack, vec3 c, vec3 h) {
+FN float least_of(vec4 v) { return min(min(v.x, v.y), min(v.z, v.w)); }
+
+// The box round c with half extents h (voxels) against the plane and the half planes of the three views; its bounds are
+// taken to meet.
+FN int meets_roughly(vec4 a[3], vec4 b[3], vec4 d[3], vec4 slack[3], vec4 plane, float plane_slack_, vec3 c, vec3 h) {
     bool sure = true;
-    if (slack >= 0.0f) {
+    if (plane_slack_ >= 0.0f) {
         const float reach = abs(plane.x) * h.x + abs(plane.y) * h.y + abs(plane.z) * h.z;
         const float over = abs(plane.x * c.x + plane.y * c.y + plane.z * c.z + plane.w) - reach;
-        if (over > slack) return ROUGH_NO;
-        sure = over < -slack;
+        if (over > plane_slack_) return ROUGH_NO;
+        sure = over < -plane_slack_;
     }
-    UNROLL for (int i = 0; i < 9; ++i) {
-        const vec2 p = seen_along(c, i / 3);
-        const vec2 r = seen_along(h, i / 3);
-        const float v = lines[i].x * p.x + lines[i].y * p.y + lines[i].z + abs(lines[i].x) * r.x + abs(lines[i].y) * r.y;
-        if (v < -lines[i].w) return ROUGH_NO;
-        sure = sure && v > lines[i].w;
-    }
-    return sure ? ROUGH_YES : ROUGH_UNDECIDED;
+    const vec4 x = a[0] * c.y + b[0] * c.z + d[0] + (abs(a[0]) * h.y + abs(b[0]) * h.z);
+    const vec4 y = a[1] * c.z + b[1] * c.x + d[1] + (abs(a[1]) * h.z + abs(b[1]) * h.x);
+    const vec4 z = a[2] * c.x + b[2] * c.y + d[2] + (abs(a[2]) * h.x + abs(b[2]) * h.y);
+    if (least_of(min(min(x + slack[0], y + slack[1]), z + slack[2])) < 0.0f) return ROUGH_NO;
+    return sure && least_of(min(min(x - slack[0], y - slack[1]), z - slack[2])) >= 0.0f ? ROUGH_YES : ROUGH_UNDECIDED;
 }

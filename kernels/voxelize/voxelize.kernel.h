@@ -23,10 +23,8 @@ FN vec3 normal_of(ivec3 v0, ivec3 v1, ivec3 v2) {
                 float_of_signed_64(double_area(projected(v0, 2), projected(v1, 2), projected(v2, 2))));
 }
 
-FN vec3 in_voxel(ivec3 v, ivec3 voxel) {
-    const ivec3 d = v - voxel * 65536;
-    return vec3(float_of_int(d.x), float_of_int(d.y), float_of_int(d.z)) / 65536.0f;
-}
+// In voxels; where a float does not hold it, rounded the same way on every device.
+FN vec3 position(ivec3 v) { return vec3(float_of_int(v.x), float_of_int(v.y), float_of_int(v.z)) / 65536.0f; }
 
 // 0..1 in steps of 2^-14.
 FN uint steps_of(float v) { return v > 0.0f ? uint(min(v, 1.0f) * 16384.0f + 0.5f) : 0u; }
@@ -158,9 +156,10 @@ FN void fragment(CTX, ivec3 p, int mesh_triangle) {
 #endif
 
 // The box round the centre of voxel p with half extents h, in half voxels.
-FN bool box_meets(vec4 lines[9], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2, ivec3 corner, ivec3 p, ivec3 h) {
+FN bool box_meets(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2,
+                  ivec3 corner, ivec3 p, ivec3 h) {
     const vec3 c = vec3(float(p.x - corner.x) + 0.5f, float(p.y - corner.y) + 0.5f, float(p.z - corner.z) + 0.5f);
-    const int meets = meets_roughly(lines, plane, slack, c, 0.5f * vec3(float(h.x), float(h.y), float(h.z)));
+    const int meets = meets_roughly(la, lb, ld, lw, plane, slack, c, 0.5f * vec3(float(h.x), float(h.y), float(h.z)));
     return meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, 2 * p + 1, h));
 }
 
@@ -191,18 +190,39 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const ivec3 last = min(corner + (BRICK - 1), last_voxel(high, ivec3(params.last_x, params.last_y, params.last_z)));
 
     // Float first, in voxels from a corner of the brick; what that leaves open goes to the integers.
-    const vec3 a = voxels_of(v0 - 65536 * corner);
-    const vec3 b = voxels_of(v1 - 65536 * corner);
-    const vec3 c = voxels_of(v2 - 65536 * corner);
+    const vec3 a = position(v0 - 65536 * corner);
+    const vec3 b = position(v1 - 65536 * corner);
+    const vec3 c = position(v2 - 65536 * corner);
     const vec3 ab = voxels_of(v1 - v0);
     const vec3 bc = voxels_of(v2 - v1);
     const vec3 ca = voxels_of(v0 - v2);
-    vec4 lines[9];
-    UNROLL for (int i = 0; i < 9; ++i)
-        lines[i] = rough_edge(seen_along(a, i / 3), seen_along(b, i / 3), seen_along(c, i / 3), seen_along(ab, i / 3),
-                              seen_along(bc, i / 3), seen_along(ca, i / 3), 8.0f, i % 3);
+    vec4 la[3];
+    vec4 lb[3];
+    vec4 ld[3];
+    vec4 lw[3];
+    UNROLL for (int axis = 0; axis < 3; ++axis) {
+        vec4 px = across(a, b, c, axis);
+        vec4 py = upward(a, b, c, axis);
+        vec4 ex = across(ab, bc, ca, axis);
+        vec4 ey = upward(ab, bc, ca, axis);
+        const vec4 view = view_of(px, py, ex, ey);
+        if (view.x == 0.0f) {
+            const vec4 sides = both_ways(ex, ey, view);
+            ey = both_ways(ey, ex, view);
+            ex = sides;
+            px = twice_of(px, view);
+            py = twice_of(py, view);
+        } else {
+            ex = view.x * ex;
+            ey = view.x * ey;
+        }
+        la[axis] = -ey;
+        lb[axis] = ex;
+        ld[axis] = line_offset(px, py, ex, ey);
+        lw[axis] = line_slack(px, py, ex, ey, 8.0f, view);
+    }
     const vec4 plane = rough_plane(a, ab, bc);
-    const float slack = plane_slack(a, ab, bc, plane, 8.0f);
+    const float slack = plane_slack(a, ab, bc, 8.0f);
 
     // The normal, where something needs it: from the integers, so that slivers have one.
     vec3 rough = vec3(0.0f, 0.0f, 0.0f);
@@ -241,23 +261,21 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
                     UNROLL for (int axis = 0; axis < 3; ++axis) {
                         const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
                         meets = meets || (bounds_meet(low, high, 2 * p + 1, h) &&
-                                          box_meets(lines, plane, slack, v0, v1, v2, corner, p, h));
+                                          box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, h));
                     }
                 } else if (MODE == MODE_DILATED) {
                     meets = dilated_meets(v0, v1, v2, dominant, p);
                 } else {
-                    meets = box_meets(lines, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
+                    meets = box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
                 }
                 if (!meets) continue;
                 vec4 paint = colour;
                 vec4 part = vec4(0.0f);
-                const vec3 q0 = in_voxel(v0, p);
-                const vec3 q1 = in_voxel(v1, p);
-                const vec3 q2 = in_voxel(v2, p);
-                if (MERGE == MERGE_EXACT || WITH_TEXTURES) part = part_in_cube(q0, q1, q2);
+                const vec3 at = vec3(float(x - corner.x), float(y - corner.y), float(z - corner.z));
+                if (MERGE == MERGE_EXACT || WITH_TEXTURES) part = part_in_cube(a - at, b - at, c - at);
 #if TEXTURES
                 if (density > 0.0f) {
-                    const vec2 uv = uv_at(ctx, t, vec3(part.x, part.y, part.z), q0, q1, q2, rough / 4294967296.0f, dominant);
+                    const vec2 uv = uv_at(ctx, t, at + vec3(part.x, part.y, part.z), a, b, c, rough / 4294967296.0f, dominant);
                     const vec4 found = texture_at(ctx, entry, uv, density);
                     if (cutoff > 0.0f && found.w < cutoff) continue;
                     paint = vec4(colour.x * found.x, colour.y * found.y, colour.z * found.z,

@@ -1,9 +1,9 @@
 /* BUILD
    math: wide_int triangle_box triangle_filter voxel_grid clip texture
-   module plain: LIST=0 TEXTURES=0
-   module list: LIST=1 TEXTURES=0
-   module textured: LIST=0 TEXTURES=1
-   module textured_list: LIST=1 TEXTURES=1
+   module plain: LIST=0 TEXTURES=0 CLIP_CENTROID=0
+   module list: LIST=1 TEXTURES=0 CLIP_CENTROID=0
+   module textured: LIST=0 TEXTURES=1 CLIP_CENTROID=1
+   module textured_list: LIST=1 TEXTURES=1 CLIP_CENTROID=1
 */
 #define MODE_CONSERVATIVE 0
 #define MODE_THIN 1

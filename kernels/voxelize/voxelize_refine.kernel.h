@@ -47,12 +47,33 @@ FN void refine(CTX, int t, ivec3 from, ivec3 to) {
     const vec3 ab = voxels_of(v1 - v0);
     const vec3 bc = voxels_of(v2 - v1);
     const vec3 ca = voxels_of(v0 - v2);
-    vec4 lines[9];
-    UNROLL for (int i = 0; i < 9; ++i)
-        lines[i] = rough_edge(seen_along(a, i / 3), seen_along(b, i / 3), seen_along(c, i / 3), seen_along(ab, i / 3),
-                              seen_along(bc, i / 3), seen_along(ca, i / 3), span, i % 3);
+    vec4 la[3];
+    vec4 lb[3];
+    vec4 ld[3];
+    vec4 lw[3];
+    UNROLL for (int axis = 0; axis < 3; ++axis) {
+        vec4 px = across(a, b, c, axis);
+        vec4 py = upward(a, b, c, axis);
+        vec4 ex = across(ab, bc, ca, axis);
+        vec4 ey = upward(ab, bc, ca, axis);
+        const vec4 view = view_of(px, py, ex, ey);
+        if (view.x == 0.0f) {
+            const vec4 sides = both_ways(ex, ey, view);
+            ey = both_ways(ey, ex, view);
+            ex = sides;
+            px = twice_of(px, view);
+            py = twice_of(py, view);
+        } else {
+            ex = view.x * ex;
+            ey = view.x * ey;
+        }
+        la[axis] = -ey;
+        lb[axis] = ex;
+        ld[axis] = line_offset(px, py, ex, ey);
+        lw[axis] = line_slack(px, py, ex, ey, span, view);
+    }
     const vec4 plane = rough_plane(a, ab, bc);
-    const float slack = plane_slack(a, ab, bc, plane, span);
+    const float slack = plane_slack(a, ab, bc, span);
     for (int z = begin.z; z <= end.z; ++z)
         for (int y = begin.y; y <= end.y; ++y)
             for (int x = begin.x; x <= end.x; ++x) {
@@ -62,7 +83,7 @@ FN void refine(CTX, int t, ivec3 from, ivec3 to) {
                 const ivec3 centre = from_voxel + to_voxel;  // half voxels
                 const ivec3 size = to_voxel - from_voxel;
                 const int meets =
-                    meets_roughly(lines, plane, slack, 32768.0f * voxels_of(centre - 2 * first), 32768.0f * voxels_of(size));
+                    meets_roughly(la, lb, ld, lw, plane, slack, 32768.0f * voxels_of(centre - 2 * first), 32768.0f * voxels_of(size));
                 if (meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, centre, size)))
                     keep(ctx, t, block, grid);
             }

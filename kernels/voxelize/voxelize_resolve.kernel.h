@@ -37,11 +37,14 @@ KERNEL(voxelize_resolve) {
     const int last_x = min(brick_x * BRICK + (BRICK - 1), params.last_x);
     if (first.x > last_x || first.y > params.last_y || first.z > params.last_z) return;
     const uint slot = load(slots, linear_of(first / BRICK, blocks_of(extent, BRICK)));
+    if (slot == 0u) {
+        for (int x = first.x; x <= last_x; ++x) store_voxel(dst, extent, ivec3(x, first.y, first.z), vec4(0.0f));
+        return;
+    }
     const int row = linear_of(ivec3(0, first.y % BRICK, first.z % BRICK), ivec3(BRICK, BRICK, BRICK));
     uint occupied = 0u;
     for (int x = first.x; x <= last_x; ++x) {
-        vec4 mean = vec4(0.0f);
-        if (slot > 0u) mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x % BRICK);
+        const vec4 mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x % BRICK);
         if (mean.w > 0.0f) ++occupied;
         store_voxel(dst, extent, ivec3(x, first.y, first.z), mean);
     }
