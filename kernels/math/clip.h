@@ -8,24 +8,6 @@ FN vec3 cross_of(vec3 a, vec3 b) {
     return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-// Keeps the points of a polygon with `inside` (an expression in p) >= 0; IN_Q is the same in q.
-#define CLIP_AT(inside_p, inside_q) \
-    { \
-        int kept = 0; \
-        vec3 p = points[count - 1]; \
-        float dp = inside_p; \
-        for (int i = 0; i < count; ++i) { \
-            const vec3 q = points[i]; \
-            const float dq = inside_q; \
-            if ((dp >= 0.0f) != (dq >= 0.0f) && kept < CLIP_VERTICES) clipped[kept++] = p + dp / (dp - dq) * (q - p); \
-            if (dq >= 0.0f && kept < CLIP_VERTICES) clipped[kept++] = q; \
-            p = q; \
-            dp = dq; \
-        } \
-        count = kept; \
-        for (int i = 0; i < count; ++i) points[i] = clipped[i]; \
-    }
-
 // Its centroid and area. An empty part has area 0 and the centroid of the triangle, moved into the cube.
 FN vec4 part_in_cube(vec3 a, vec3 b, vec3 c) {
     vec3 points[CLIP_VERTICES];
@@ -36,12 +18,26 @@ FN vec4 part_in_cube(vec3 a, vec3 b, vec3 c) {
     int count = 3;
     const vec3 low = min(a, min(b, c));
     const vec3 high = max(a, max(b, c));
-    if (low.x < 0.0f) CLIP_AT(p.x, q.x)
-    if (high.x > 1.0f && count > 0) CLIP_AT(1.0f - p.x, 1.0f - q.x)
-    if (low.y < 0.0f && count > 0) CLIP_AT(p.y, q.y)
-    if (high.y > 1.0f && count > 0) CLIP_AT(1.0f - p.y, 1.0f - q.y)
-    if (low.z < 0.0f && count > 0) CLIP_AT(p.z, q.z)
-    if (high.z > 1.0f && count > 0) CLIP_AT(1.0f - p.z, 1.0f - q.z)
+    for (int face = 0; face < 6; ++face) {
+        // Inside is at >= 0; at = x - 0 for a lower face, 1 - x for an upper one.
+        const int axis = face >> 1;
+        const float side = (face & 1) == 0 ? 1.0f : -1.0f;
+        const float bound = (face & 1) == 0 ? 0.0f : 1.0f;
+        if (count == 0 || bound + side * coordinate((face & 1) == 0 ? low : high, axis) >= 0.0f) continue;
+        int kept = 0;
+        vec3 p = points[count - 1];
+        float dp = bound + side * coordinate(p, axis);
+        for (int i = 0; i < count; ++i) {
+            const vec3 q = points[i];
+            const float dq = bound + side * coordinate(q, axis);
+            if ((dp >= 0.0f) != (dq >= 0.0f) && kept < CLIP_VERTICES) clipped[kept++] = p + dp / (dp - dq) * (q - p);
+            if (dq >= 0.0f && kept < CLIP_VERTICES) clipped[kept++] = q;
+            p = q;
+            dp = dq;
+        }
+        count = kept;
+        for (int i = 0; i < count; ++i) points[i] = clipped[i];
+    }
     vec3 twice = vec3(0.0f, 0.0f, 0.0f);
     vec3 moment = vec3(0.0f, 0.0f, 0.0f);
     float weight = 0.0f;

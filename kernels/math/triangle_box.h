@@ -8,6 +8,7 @@
 FN ivec2 projected(ivec3 v, int axis) {
     return axis == 0 ? ivec2(v.y, v.z) : (axis == 1 ? ivec2(v.z, v.x) : ivec2(v.x, v.y));
 }
+FN int along(ivec3 v, int axis) { return axis == 0 ? v.x : (axis == 1 ? v.y : v.z); }
 FN int greatest(ivec2 e) { return int(max(magnitude(e.x), magnitude(e.y))); }
 
 // The component of (q - p) x (r - p) along the axis of a projection.
@@ -26,15 +27,16 @@ FN ivec4 edge_line(ivec2 p, ivec2 q, int sign_) {
 // Half planes 0, 1, 2 of the triangle seen along an axis, `area` its double_area there. Where that is none, the three
 // are the two sides of the line that it is seen as, and everything.
 FN ivec4 edge_of(ivec2 p, ivec2 q, ivec2 r, uvec2 area, int which) {
-    if (!zero_64(area)) {
-        const int turn = negative_64(area) ? -1 : 1;
-        return which == 0 ? edge_line(p, q, turn) : (which == 1 ? edge_line(q, r, turn) : edge_line(r, p, turn));
+    int edge = which;
+    int sign_ = negative_64(area) ? -1 : 1;
+    if (zero_64(area)) {
+        const int a = greatest(q - p);
+        const int b = greatest(r - q);
+        const int c = greatest(p - r);
+        edge = a >= b && a >= c ? 0 : (b >= c ? 1 : 2);
+        sign_ = 1 - which;
     }
-    const int side = which == 0 ? 1 : (which == 1 ? -1 : 0);
-    const int a = greatest(q - p);
-    const int b = greatest(r - q);
-    const int c = greatest(p - r);
-    return a >= b && a >= c ? edge_line(p, q, side) : (b >= c ? edge_line(q, r, side) : edge_line(r, p, side));
+    return edge_line(edge == 0 ? p : (edge == 1 ? q : r), edge == 0 ? q : (edge == 1 ? r : p), sign_);
 }
 
 // Whether some point of the box (its centre and half extents seen along the same axis) lies in the half plane.
@@ -48,36 +50,32 @@ FN bool edge_meets(ivec4 line, ivec2 c, ivec2 h) {
     return high + (low >> 16) >= 0;
 }
 
-FN bool edges_meet(ivec4 lines[9], ivec3 c, ivec3 h) {
-    bool meets = true;
-    UNROLL for (int i = 0; i < 9; ++i) meets = meets && edge_meets(lines[i], projected(c, i / 3), projected(h, i / 3));
-    return meets;
-}
-
 FN bool span_meets(int low, int high, int c, int h) { return (c - h) * 32768 <= high && (c + h) * 32768 >= low; }
 FN bool bounds_meet(ivec3 low, ivec3 high, ivec3 c, ivec3 h) {
     return span_meets(low.x, high.x, c.x, h.x) && span_meets(low.y, high.y, c.y, h.y) &&
            span_meets(low.z, high.z, c.z, h.z);
 }
 
-// |n . (c - v)| <= sum |n_i| h_i. n: the triangle's normal, a word pair an axis; d = 2^15 c - v for a vertex v.
-FN bool plane_meets_exactly(uvec2 nx, uvec2 ny, uvec2 nz, ivec3 d, ivec3 h) {
-    const uvec3 distance = add_96(add_96(product_96(nx, d.x), product_96(ny, d.y)), product_96(nz, d.z));
-    const uvec3 reach = add_96(add_96(product_96(magnitude_64(nx), h.x * 32768), product_96(magnitude_64(ny), h.y * 32768)),
-                               product_96(magnitude_64(nz), h.z * 32768));
+// |n . (c - v0)| <= sum |n_i| h_i for the triangle's normal n.
+FN bool plane_meets_exactly(ivec3 v0, ivec3 v1, ivec3 v2, ivec3 c, ivec3 h) {
+    uvec3 distance = uvec3(0u, 0u, 0u);
+    uvec3 reach = uvec3(0u, 0u, 0u);
+    for (int axis = 0; axis < 3; ++axis) {
+        const uvec2 n = double_area(projected(v0, axis), projected(v1, axis), projected(v2, axis));
+        distance = add_96(distance, product_96(n, along(c, axis) * 32768 - along(v0, axis)));
+        reach = add_96(reach, product_96(magnitude_64(n), along(h, axis) * 32768));
+    }
     return !negative_96(add_96(reach, distance)) && !negative_96(add_96(reach, negate_96(distance)));
 }
 
 // All of it, for a box that meets the triangle's bounds.
 FN bool meets_exactly(ivec3 v0, ivec3 v1, ivec3 v2, ivec3 c, ivec3 h) {
-    ivec4 lines[9];
-    uvec2 n[3];
-    UNROLL for (int axis = 0; axis < 3; ++axis) {
-        const ivec2 p = projected(v0, axis);
-        const ivec2 q = projected(v1, axis);
-        const ivec2 r = projected(v2, axis);
-        n[axis] = double_area(p, q, r);
-        UNROLL for (int i = 0; i < 3; ++i) lines[3 * axis + i] = edge_of(p, q, r, n[axis], i);
+    bool meets = true;
+    for (int i = 0; i < 9 && meets; ++i) {
+        const ivec2 p = projected(v0, i / 3);
+        const ivec2 q = projected(v1, i / 3);
+        const ivec2 r = projected(v2, i / 3);
+        meets = edge_meets(edge_of(p, q, r, double_area(p, q, r), i % 3), projected(c, i / 3), projected(h, i / 3));
     }
-    return edges_meet(lines, c, h) && plane_meets_exactly(n[0], n[1], n[2], c * 32768 - v0, h);
+    return meets && plane_meets_exactly(v0, v1, v2, c, h);
 }

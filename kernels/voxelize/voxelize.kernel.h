@@ -169,13 +169,33 @@ FN bool dilated_meets(ivec3 v0, ivec3 v1, ivec3 v2, int axis, ivec3 voxel) {
     const ivec2 r = projected(v2, axis);
     const uvec2 area = double_area(p, q, r);
     const ivec3 c = 2 * voxel + 1;
-    bool meets = plane_meets_exactly(double_area(projected(v0, 0), projected(v1, 0), projected(v2, 0)),
-                                     double_area(projected(v0, 1), projected(v1, 1), projected(v2, 1)),
-                                     double_area(projected(v0, 2), projected(v1, 2), projected(v2, 2)), c * 32768 - v0,
-                                     ivec3(1, 1, 1));
-    UNROLL for (int i = 0; i < 3; ++i)
+    bool meets = plane_meets_exactly(v0, v1, v2, c, ivec3(1, 1, 1));
+    for (int i = 0; i < 3; ++i)
         meets = meets && edge_meets(edge_of(p, q, r, area, i), projected(c, axis), ivec2(1, 1));
     return meets;
+}
+
+FN bool voxel_meets(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2,
+                    int dominant, ivec3 corner, ivec3 p) {
+    if (MODE == MODE_DILATED) return dilated_meets(v0, v1, v2, dominant, p);
+    if (MODE == MODE_CONSERVATIVE)
+        return box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
+    const ivec3 low = min(v0, min(v1, v2));
+    const ivec3 high = max(v0, max(v1, v2));
+    bool meets = false;
+    for (int axis = 0; axis < 3 && !meets; ++axis) {
+        const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
+        meets = bounds_meet(low, high, 2 * p + 1, h) &&
+                box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, h);
+    }
+    return meets;
+}
+
+// The next voxel of first..last, x first; after the last one lies beyond it along z.
+FN ivec3 following(ivec3 p, ivec3 first, ivec3 last) {
+    if (p.x < last.x) return ivec3(p.x + 1, p.y, p.z);
+    if (p.y < last.y) return ivec3(first.x, p.y + 1, p.z);
+    return ivec3(first.x, first.y, p.z + 1);
 }
 
 FN void voxelize_piece(CTX, int t, int brick, int slot) {
@@ -252,49 +272,43 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     }
 #endif
 
-    for (int z = first.z; z <= last.z; ++z)
-        for (int y = first.y; y <= last.y; ++y)
-            for (int x = first.x; x <= last.x; ++x) {
-                const ivec3 p = ivec3(x, y, z);
-                bool meets = false;
-                if (MODE == MODE_THIN) {
-                    UNROLL for (int axis = 0; axis < 3; ++axis) {
-                        const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
-                        meets = meets || (bounds_meet(low, high, 2 * p + 1, h) &&
-                                          box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, h));
-                    }
-                } else if (MODE == MODE_DILATED) {
-                    meets = dilated_meets(v0, v1, v2, dominant, p);
-                } else {
-                    meets = box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
-                }
-                if (!meets) continue;
-                vec4 paint = colour;
-                vec4 part = vec4(0.0f);
-                const vec3 at = vec3(float(x - corner.x), float(y - corner.y), float(z - corner.z));
-                if (MERGE == MERGE_EXACT || WITH_TEXTURES) part = part_in_cube(a - at, b - at, c - at);
+    // Look for the next voxel, then share in it: neighbouring invocations do the same thing at the same time.
+    ivec3 next = first;
+    for (;;) {
+        ivec3 p = next;
+        bool meets = false;
+        while (next.z <= last.z && !meets) {
+            p = next;
+            meets = voxel_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, dominant, corner, p);
+            next = following(next, first, last);
+        }
+        if (!meets) break;
+        vec4 paint = colour;
+        vec4 part = vec4(0.0f);
+        const vec3 at = vec3(float(p.x - corner.x), float(p.y - corner.y), float(p.z - corner.z));
+        if (MERGE == MERGE_EXACT || WITH_TEXTURES) part = part_in_cube(a - at, b - at, c - at);
 #if TEXTURES
-                if (density > 0.0f) {
-                    const vec2 uv = uv_at(ctx, t, at + vec3(part.x, part.y, part.z), a, b, c, rough / 4294967296.0f, dominant);
-                    const vec4 found = texture_at(ctx, entry, uv, density);
-                    if (cutoff > 0.0f && found.w < cutoff) continue;
-                    paint = vec4(colour.x * found.x, colour.y * found.y, colour.z * found.z,
-                                 cutoff > 0.0f ? colour.w : colour.w * found.w);
-                }
+        if (density > 0.0f) {
+            const vec2 uv = uv_at(ctx, t, at + vec3(part.x, part.y, part.z), a, b, c, rough / 4294967296.0f, dominant);
+            const vec4 found = texture_at(ctx, entry, uv, density);
+            if (cutoff > 0.0f && found.w < cutoff) continue;
+            paint = vec4(colour.x * found.x, colour.y * found.y, colour.z * found.z,
+                         cutoff > 0.0f ? colour.w : colour.w * found.w);
+        }
 #endif
-                const int voxel = slot * BRICK_VOXELS + linear_of(p - corner, ivec3(BRICK, BRICK, BRICK));
-                if (MERGE == MERGE_MOVING_AVERAGE) {
-                    move_average(ctx, voxel, paint);
-                } else if (MERGE == MERGE_LAST_WRITE) {
-                    write_last(ctx, voxel, paint);
-                } else {
-                    const uint weight = max(uint(part.w * 65536.0f + 0.5f), 1u);
-                    add_mean(ctx, voxel, weight, paint, vec3(emission.x, emission.y, emission.z), normal);
-                }
+        const int voxel = slot * BRICK_VOXELS + linear_of(p - corner, ivec3(BRICK, BRICK, BRICK));
+        if (MERGE == MERGE_MOVING_AVERAGE) {
+            move_average(ctx, voxel, paint);
+        } else if (MERGE == MERGE_LAST_WRITE) {
+            write_last(ctx, voxel, paint);
+        } else {
+            const uint weight = max(uint(part.w * 65536.0f + 0.5f), 1u);
+            add_mean(ctx, voxel, weight, paint, vec3(emission.x, emission.y, emission.z), normal);
+        }
 #if LIST
-                fragment(ctx, p, load(triangles, t * TRIANGLE_WORDS + 10));
+        fragment(ctx, p, load(triangles, t * TRIANGLE_WORDS + 10));
 #endif
-            }
+    }
 }
 
 KERNEL(voxelize) {
