@@ -24,4 +24,5 @@ check() {
 check probe_test '*'
 check gaussian_blur_test 'GaussianBlurSmall*'
 check mip_build_test 'MipBuild/Formula*:MipBuild.ThreeLevels*'
+check voxelize_test 'VoxelizeSmall*'
 exit $failed

@@ -225,6 +225,62 @@ TEST(Voxelize, WhatCannotBeUsedIsCountedAndSkipped) {
   EXPECT_EQ(triangles.outside, 1u);
 }
 
+// Small enough for Oclgrind, which watches each access: every part, option and merging.
+TEST(VoxelizeSmall, EveryPartRuns) {
+  const VoxelGrid grid = unit_grid(10);
+  const VoxelTriangles triangles = prepare(painted(40, 10), grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  params.materials = 3;
+  params.fragments = 4000;
+  for (const VoxelizeMode mode : {VoxelizeMode::conservative, VoxelizeMode::thin}) {
+    params.mode = mode;
+    params.opacity = params.normal = params.emission = mode == VoxelizeMode::thin;
+    const std::vector<Fragment> expected = cases::fragments(truth::voxels(triangles, grid, mode, paints()), grid);
+    for (const std::string& device : test_devices())
+      EXPECT_EQ(fragments(voxelize(test_context(device), params, triangles, paints())), expected) << device;
+  }
+}
+
+TEST(VoxelizeSmall, OtherMergings) {
+  const VoxelGrid grid = unit_grid(72);  // two blocks along each axis
+  const VoxelTriangles triangles = prepare(painted(30, 72), grid);
+  VoxelizeParams params = voxelize_params(grid, triangles);
+  params.materials = 3;
+  params.last = {71, 40, 20};
+  for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
+    params.merging = merging;
+    for (const std::string& device : test_devices())
+      EXPECT_GT(voxelize(test_context(device), params, triangles, paints()).count(VoxelizeCount::occupied), 0u) << device;
+  }
+}
+
+TEST(Voxelize, ARegionIsTheSameAsThatPartOfTheWhole) {
+  const VoxelGrid grid = unit_grid(70);
+  const VoxelTriangles triangles = prepare(painted(300, 70), grid);
+  VoxelizeParams whole = voxelize_params(grid, triangles), part = whole;
+  whole.materials = part.materials = 3;
+  part.first = {3, 17, 60};
+  part.last = {66, 31, 69};
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    const Bytes all = voxelize(context, whole, triangles, paints()).bytes.at("colour");
+    const Bytes some = voxelize(context, part, triangles, paints()).bytes.at("colour");
+    std::size_t differing = 0, written = 0;
+    for (std::size_t i = 0; i < all.size() / 16; ++i) {
+      const int p[] = {static_cast<int>(i % 70), static_cast<int>(i / 70 % 70), static_cast<int>(i / 4900)};
+      bool inside = true;
+      for (std::size_t k = 0; k < 3; ++k) inside = inside && part.first[k] <= p[k] && p[k] <= part.last[k];
+      const auto at = static_cast<std::ptrdiff_t>(16 * i);
+      if (inside)
+        differing += !std::equal(all.begin() + at, all.begin() + at + 16, some.begin() + at);
+      else
+        written += std::any_of(some.begin() + at, some.begin() + at + 16, [](std::uint8_t b) { return b != guard_byte; });
+    }
+    EXPECT_EQ(differing, 0u) << device;
+    EXPECT_EQ(written, 0u) << device;
+  }
+}
+
 TEST(Voxelize, AnEmptyMeshIsAnEmptyGrid) {
   const VoxelGrid grid = unit_grid(9);
   const VoxelTriangles triangles = prepare({}, grid);
