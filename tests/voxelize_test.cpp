@@ -95,7 +95,7 @@ TEST_P(VoxelizeSets, OfTenThousandTrianglesAreExact) {
   for (const std::string& device : test_devices()) {
     const Voxelized result = voxelize(test_context(device), params, triangles);
     EXPECT_EQ(result.count(VoxelizeCount::fragments), list.size()) << device;
-    EXPECT_EQ(fragments(result), list) << device;
+    EXPECT_EQ(cases::unmatched(fragments(result), list), 0) << device;
     EXPECT_EQ(different(occupied(params, result), occupied(expected)), 0u) << device;
     expect_fits(triangles, result);
   }
@@ -237,7 +237,7 @@ TEST(VoxelizeSmall, EveryPartRuns) {
     params.opacity = params.normal = params.emission = mode == VoxelizeMode::thin;
     const std::vector<Fragment> expected = cases::fragments(truth::voxels(triangles, grid, mode, paints()), grid);
     for (const std::string& device : test_devices())
-      EXPECT_EQ(fragments(voxelize(test_context(device), params, triangles, paints())), expected) << device;
+      EXPECT_EQ(cases::unmatched(fragments(voxelize(test_context(device), params, triangles, paints())), expected), 0) << device;
   }
 }
 

@@ -16,12 +16,12 @@ FN uvec2 double_area(ivec2 p, ivec2 q, ivec2 r) {
     return add_64(product_64(q.x - p.x, r.y - p.y), negate_64(product_64(q.y - p.y, r.x - p.x)));
 }
 
-// The half plane left of p -> q (sign 1) or right of it (-1), or everywhere (0): a, b, and d in multiples of 2^16 and a
-// rest.
+// The half plane left of p -> q (sign 1) or right of it (-1), or everywhere (0): a, b, and d / 2^15 as a multiple of
+// 2^16 and a rest of up to 17 bits.
 FN ivec4 edge_line(ivec2 p, ivec2 q, int sign_) {
     const ivec2 e = sign_ * (q - p);
     const uvec2 d = add_64(product_64(e.y, p.x), negate_64(product_64(e.x, p.y)));
-    return ivec4(-e.y, e.x, int((d.y << 1) | (d.x >> 31)), int((d.x >> 15) & 0xffffu));
+    return ivec4(-e.y, e.x, 2 * int(d.y), int(d.x >> 15));
 }
 
 // Half planes 0, 1, 2 of the triangle seen along an axis, `area` its double_area there. Where that is none, the three
@@ -41,8 +41,8 @@ FN ivec4 edge_of(ivec2 p, ivec2 q, ivec2 r, uvec2 area, int which) {
 
 // Whether some point of the box (its centre and half extents seen along the same axis) lies in the half plane.
 FN bool edge_meets(ivec4 line, ivec2 c, ivec2 h) {
-    const int reach_a = line.x < 0 ? -line.x : line.x;
-    const int reach_b = line.y < 0 ? -line.y : line.y;
+    const int reach_a = int(magnitude(line.x));
+    const int reach_b = int(magnitude(line.y));
     const int low = (line.x & 0xffff) * c.x + (line.y & 0xffff) * c.y + (reach_a & 0xffff) * h.x +
                     (reach_b & 0xffff) * h.y + line.w;
     const int high = (line.x >> 16) * c.x + (line.y >> 16) * c.y + (reach_a >> 16) * h.x + (reach_b >> 16) * h.y +

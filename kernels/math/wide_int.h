@@ -1,27 +1,27 @@
 // Signed integers of 64 and 96 bits, two's complement, from uint: uvec2 and uvec3, lowest word first. And conversions of
 // integers to float by sums of exact parts, so that every device rounds the same way.
 
-FN uint magnitude(int v) { return v < 0 ? 0u - uint(v) : uint(v); }
+FN uint magnitude(int v) { return uint(abs(v)); }
 FN bool negative_64(uvec2 v) { return (v.y >> 31) != 0u; }
 FN bool negative_96(uvec3 v) { return (v.z >> 31) != 0u; }
 FN bool zero_64(uvec2 v) { return (v.x | v.y) == 0u; }
 
+// What a + b (and a carry into it), of which `sum` is left, carries on: 0 or 1.
+FN uint carry_of(uint a, uint b, uint sum) { return ((a & b) | ((a | b) & ~sum)) >> 31; }
+
 FN uvec2 add_64(uvec2 a, uvec2 b) {
     const uint low = a.x + b.x;
-    return uvec2(low, a.y + b.y + (low < a.x ? 1u : 0u));
+    return uvec2(low, a.y + b.y + carry_of(a.x, b.x, low));
 }
-FN uvec2 negate_64(uvec2 v) { return uvec2(0u - v.x, ~v.y + (v.x == 0u ? 1u : 0u)); }
+FN uvec2 negate_64(uvec2 v) { return add_64(uvec2(~v.x, ~v.y), uvec2(1u, 0u)); }
 FN uvec2 magnitude_64(uvec2 v) { return negative_64(v) ? negate_64(v) : v; }
 
 FN uvec3 add_96(uvec3 a, uvec3 b) {
-    const uvec2 low = add_64(uvec2(a.x, a.y), uvec2(b.x, b.y));
-    const bool carry = low.y < a.y || (low.y == a.y && low.x < a.x);
-    return uvec3(low.x, low.y, a.z + b.z + (carry ? 1u : 0u));
+    const uint low = a.x + b.x;
+    const uint middle = a.y + b.y + carry_of(a.x, b.x, low);
+    return uvec3(low, middle, a.z + b.z + carry_of(a.y, b.y, middle));
 }
-FN uvec3 negate_96(uvec3 v) {
-    const uvec2 low = negate_64(uvec2(v.x, v.y));
-    return uvec3(low.x, low.y, ~v.z + ((low.x | low.y) == 0u ? 1u : 0u));
-}
+FN uvec3 negate_96(uvec3 v) { return add_96(uvec3(~v.x, ~v.y, ~v.z), uvec3(1u, 0u, 0u)); }
 
 // All 64 bits of a * b, from products of 16-bit halves.
 FN uvec2 product_unsigned(uint a, uint b) {
@@ -40,7 +40,7 @@ FN uvec3 product_96(uvec2 a, int b) {
     const uvec2 low = product_unsigned(m.x, magnitude(b));
     const uvec2 high = product_unsigned(m.y, magnitude(b));
     const uint middle = low.y + high.x;
-    const uvec3 p = uvec3(low.x, middle, high.y + (middle < low.y ? 1u : 0u));
+    const uvec3 p = uvec3(low.x, middle, high.y + carry_of(low.y, high.x, middle));
     return negative_64(a) != (b < 0) ? negate_96(p) : p;
 }
 

@@ -62,7 +62,7 @@ FN void add_mean(CTX, int voxel, uint weight, vec4 colour, vec3 emission, vec3 n
 
 // The mean so far in 8 bits a channel, the fourth counts: C <- (i C + c) / (i + 1). The count wraps at 255.
 FN void move_average(CTX, int voxel, vec4 colour) {
-    uint before = load(sums, voxel);
+    uint before = 0u;  // most likely
     for (;;) {
         const uint count = before >> 24;
         uint after = (count + 1u) << 24;
@@ -82,7 +82,7 @@ FN void move_average(CTX, int voxel, vec4 colour) {
 FN void write_last(CTX, int voxel, vec4 colour) {
     const uint after = unorm8_bits(colour.x) | (unorm8_bits(colour.y) << 8) | (unorm8_bits(colour.z) << 16) |
                        (max(unorm8_bits(colour.w), 1u) << 24);
-    uint before = load(sums, voxel);
+    uint before = 0u;  // most likely
     for (;;) {
         const uint found = atomic_compare_swap(sums, voxel, before, after);
         if (found == before) return;
