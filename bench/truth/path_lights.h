@@ -29,8 +29,12 @@ class Random {
 /// Unit vector `local` (z along the normal) in world space, for a unit normal (Duff et al. 2017).
 glm::dvec3 about(glm::dvec3 normal, glm::dvec3 local);
 
-/// Direction about the normal with density cos / pi (Malley's method).
-glm::dvec3 cosine_direction(glm::dvec3 normal, Random& random);
+/// Direction about the normal with density cos / pi (Malley's method) from two uniform numbers.
+glm::dvec3 cosine_direction(glm::dvec3 normal, glm::dvec2 u);
+
+/// Two uniform numbers for sample `s` of `n`: one in each cell of the squarest grid of at most n cells, the rest anywhere.
+/// Neighbours in s are neighbours in the grid.
+glm::dvec2 stratified(int s, int n, Random& random);
 
 /// A picture of weights to draw from.
 class Distribution {

@@ -21,7 +21,7 @@ using glm::dvec3;
 using scene::Hit;
 
 constexpr double pi = std::numbers::pi;
-constexpr std::uint32_t version = 1;  // of what is computed: a change makes old cache files useless
+constexpr std::uint32_t version = 2;  // of what is computed: a change makes old cache files useless
 
 enum Quantity {
   visibility,
@@ -59,13 +59,13 @@ class Tracer {
     return scene_.sun.irradiance * cosine;
   }
 
-  // One path of a receiver.
-  std::array<dvec3, count> sample(const Receiver& r, Random& random) const {
+  // Path `s` of a receiver.
+  std::array<dvec3, count> sample(const Receiver& r, int s, Random& random) const {
     std::array<dvec3, count> v{};
     v[visibility] = dvec3(1);
     const dvec3 from = start(r.position, r.normal);
     sampled_lights(from, r.normal, random, v[emitted], v[sky]);
-    const dvec3 way = cosine_direction(r.normal, random);
+    const dvec3 way = cosine_direction(r.normal, stratified(s, settings_.samples, random));
     if (const auto hit = rays_.first(from, way); !hit) {
       v[sky] += pi * sky_met(way, r.normal);
     } else {
@@ -75,8 +75,8 @@ class Tracer {
       v[indirect] = pi * light.once;
       v[indirect_all] = pi * light.all;
     }
-    if (r.glossy) {
-      const dvec3 mirrored = lobe_direction(r, random);
+    if (r.glossy && settings_.glossy) {
+      const dvec3 mirrored = lobe_direction(r, stratified(s, settings_.samples, random), random);
       if (const auto hit = rays_.first(from, mirrored); !hit) {
         v[glossy_sky] = scene_.sky.toward(mirrored);
       } else {
@@ -146,7 +146,7 @@ class Tracer {
       dvec3 by_light = sunlight(hit.position, hit.normal);
       sampled_lights(from, hit.normal, random, by_light, by_light);
       dvec3 radiance = weight / pi * by_light;
-      const dvec3 way = cosine_direction(hit.normal, random);
+      const dvec3 way = cosine_direction(hit.normal, {random.next(), random.next()});
       const auto next = rays_.first(from, way);
       radiance += weight * (next ? emission_met(*next, way, hit.normal) : sky_met(way, hit.normal));
       if (bounce == 1) light.once = radiance;
@@ -158,7 +158,7 @@ class Tracer {
 
   // Heitz 2018, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), section 3.2; drawn again while the
   // mirrored direction lies below the surface.
-  dvec3 lobe_direction(const Receiver& r, Random& random) const {
+  dvec3 lobe_direction(const Receiver& r, glm::dvec2 u, Random& random) const {
     const double alpha = std::max(r.roughness * r.roughness, 1e-6);
     const dvec3 t = about(r.normal, {1, 0, 0}), s = about(r.normal, {0, 1, 0});
     const dvec3 view(glm::dot(r.view, t), glm::dot(r.view, s), std::max(glm::dot(r.view, r.normal), 1e-9));
@@ -166,8 +166,8 @@ class Tracer {
     const double flat = stretched.x * stretched.x + stretched.y * stretched.y;
     const dvec3 t1 = flat > 0 ? dvec3(-stretched.y, stretched.x, 0) / std::sqrt(flat) : dvec3(1, 0, 0);
     const dvec3 t2 = glm::cross(stretched, t1);
-    for (int tries = 0; tries < 64; ++tries) {
-      const double radius = std::sqrt(random.next()), p = 2 * pi * random.next();
+    for (int tries = 0; tries < 64; ++tries, u = {random.next(), random.next()}) {
+      const double radius = std::sqrt(u.x), p = 2 * pi * u.y;
       const double a = radius * std::cos(p), w = 0.5 * (1 + stretched.z);
       const double b = (1 - w) * std::sqrt(1 - a * a) + w * radius * std::sin(p);
       const dvec3 n = a * t1 + b * t2 + std::sqrt(std::max(0.0, 1 - a * a - b * b)) * stretched;
@@ -226,7 +226,8 @@ std::uint64_t key_of(const scene::Scene& s, const std::vector<Receiver>& receive
   for (const scene::Texture& t : s.textures) key.add(t.width).add(t.srgb).add(t.rgba);
   key.add(s.sun.direction).add(s.sun.irradiance).add(s.sky.radiance).add(s.sky.width).add(s.sky.image);
   for (const Receiver& r : receivers) key.add(r.position).add(r.normal).add(r.view).add(r.roughness).add(r.glossy);
-  key.add(settings.samples).add(settings.bounces).add(settings.ao_falloff).add(settings.ao_distance).add(settings.seed);
+  key.add(settings.samples).add(settings.bounces).add(settings.ao_falloff).add(settings.ao_distance);
+  key.add(settings.glossy).add(settings.seed);
   return key.value();
 }
 
@@ -259,13 +260,18 @@ void trace_receiver(const Tracer& tracer, const Receiver& r, std::size_t i, cons
                     PathTruth& truth) {
   const double n = settings.samples;
   const dvec3 by_sun = tracer.sunlight(r.position, r.normal);
-  std::array<dvec3, count> halves[2], squares{};
-  for (std::uint64_t half = 0; half < 2; ++half) {
+  std::array<dvec3, count> halves[2], squares{}, before{};  // squares: of the differences of pairs of samples
+  for (int half = 0, pair = 0; half < 2; ++half) {
     std::array<dvec3, count> sum{};
-    for (std::uint64_t s = 0; s < static_cast<std::uint64_t>(settings.samples); ++s) {
-      Random random(settings.seed * 2 + half, i, s);
-      const auto v = tracer.sample(r, random);
-      for (std::size_t q = 0; q < count; ++q) sum[q] += v[q], squares[q] += v[q] * v[q];
+    for (int s = 0; s < settings.samples; ++s, pair ^= 1) {
+      Random random(settings.seed * std::uint64_t{2} + static_cast<std::uint64_t>(half), i,
+                    static_cast<std::uint64_t>(s));
+      const auto v = tracer.sample(r, s, random);
+      for (std::size_t q = 0; q < count; ++q) {
+        sum[q] += v[q];
+        if (pair != 0) squares[q] += (v[q] - before[q]) * (v[q] - before[q]);
+      }
+      before = v;
     }
     for (dvec3& q : sum) q /= n;
     sum[sun] = by_sun;
@@ -273,12 +279,11 @@ void trace_receiver(const Tracer& tracer, const Receiver& r, std::size_t i, cons
   }
   const auto estimates = parts(truth);
   for (std::size_t q = 0; q < count; ++q) {
-    const dvec3 mean = (halves[0][q] + halves[1][q]) * 0.5, variance = squares[q] / (2 * n) - mean * mean;
     for (int c = 0; c < estimates[q]->channels; ++c) {
       const std::size_t at = i * static_cast<std::size_t>(estimates[q]->channels) + static_cast<std::size_t>(c);
       estimates[q]->t1[at] = halves[0][q][c];
       estimates[q]->t2[at] = halves[1][q][c];
-      estimates[q]->error[at] = q == sun ? 0 : std::sqrt(std::max(variance[c], 0.0) / (2 * n - 1));
+      estimates[q]->error[at] = std::sqrt(squares[q][c]) / (2 * n);
     }
   }
 }

@@ -24,13 +24,15 @@ struct PathSettings {
   int bounces = 0;               // diffuse bounces that indirect_all counts; 0: without end, by Russian roulette
   double ao_falloff = 0;         // gamma of f(r) = 1 / (1 + gamma r), 1 / scene unit
   double ao_distance = scene::Rays::forever;  // surfaces beyond it do not occlude
+  bool glossy = true;            // whether the glossy estimates are made; they take as long as all others
   std::uint32_t seed = 1;
   int threads = 0;               // 0: as many as there are cores. Results do not depend on it
   bool cached = true;            // whether a result may come from, and go to, the disk (luxel::cache_directory)
 };
 
 /// An estimate for every receiver: two independent halves, and the standard error of their mean. Half the width of the
-/// 95 % confidence interval is 1.96 error.
+/// 95 % confidence interval is 1.96 error. The error comes from differences of neighbouring strata, and so is too large
+/// rather than too small (Cochran 1977, Sampling Techniques, section 5A.12, collapsed strata).
 struct Estimate {
   int channels = 3;
   std::vector<double> t1, t2, error;  // channels * receivers
@@ -63,7 +65,7 @@ std::vector<std::pair<std::string, const Estimate*>> estimates(const PathTruth& 
 /// The lobe of a glossy receiver: the view direction mirrored at normals that GGX with alpha = roughness^2 shows to the
 /// viewer (Heitz 2018, Sampling the GGX Distribution of Visible Normals), of the directions above the surface; the mean
 /// is over these, so that a uniform environment gives its own radiance.
-/// Diffuse paths: cosine-weighted directions, and lights sampled (emitting triangles by area and luminance, a sky with
+/// Diffuse paths: cosine-weighted directions, the first of a path stratified, and lights sampled (emitting triangles by area and luminance, a sky with
 /// an image by its luminance), weighted by the balance heuristic (Veach and Guibas 1995). Nothing is clamped.
 Result<PathTruth> path_truth(const scene::Rays& rays, const std::vector<Receiver>& receivers,
                              const PathSettings& settings);
