@@ -301,6 +301,34 @@ sun = read('sun.npy')[1]
 assert all(abs(v - 0.6 * 3 / math.pi) < 1e-5 for v in sun), sun[:3]  # assimp's grey for OBJ faces without material
 END
 
+# ---- Meshes into voxels
+voxelize=("$luxel" voxelize --resolution 16)
+expect 2 '--mesh is required' "${voxelize[@]}" -o v.npy
+expect 2 '--resolution is required' "$luxel" voxelize --mesh cornell -o v.npy
+expect 2 '--resolution: 4096 is out of range; expected a whole number 1\.\.2048' "$luxel" voxelize --mesh cornell --resolution 4096 -o v.npy
+expect 2 'missing\.obj: does not exist; check the name' "${voxelize[@]}" --mesh missing.obj -o v.npy
+expect 2 '--voxel is not given; expected --origin and --voxel together' "${voxelize[@]}" --mesh cornell --origin 0,0,0 -o v.npy
+expect 2 '--mode: thick is not known|thick' "${voxelize[@]}" --mesh cornell --mode thick -o v.npy
+[[ -e v.npy ]] && fail "a refused voxelize left a file"
+printf 'v 0.5 0.5 0.5\nv 3.5 0.5 0.5\nv 0.5 2.5 0.5\nf 1 2 3\n' >three.obj
+for device in $devices; do
+  expect 0 '1 triangles, 0 skipped .* 9 occupied voxels' "$luxel" voxelize --mesh three.obj --resolution 4 --origin 0,0,0 --voxel 1 --device "$device" -o "three_$device.npy" --list "list_$device.npy"
+  expect 0 '2 triangles, 1 skipped \(1 not finite' "${voxelize[@]}" --mesh nan.obj --mode thin --device "$device" -o "nan_$device.npy"
+  expect 0 '50 triangles, 0 skipped' "${voxelize[@]}" --mesh cornell --device "$device" --format f16 -o "cornell_$device.npy"
+  for file in three list nan cornell; do same "${file}_cpu.npy" "${file}_$device.npy"; done
+done
+python <<'END'
+shape, v = read('three_cpu.npy')
+assert shape == (4, 4, 4, 4), shape
+touched = [i for i in range(64) if v[4 * i + 3] > 0]
+assert touched == [0, 1, 2, 3, 4, 5, 6, 8, 9], touched
+b = open('list_cpu.npy', 'rb').read()
+assert b"'descr': '<u4'" in b and b"'shape': (9, 4)" in b, b[:128]
+rows = [struct.unpack('<4I', b[len(b) - 144 + 16 * i:][:16]) for i in range(9)]
+assert rows == sorted(rows) and [r[0] + 4 * r[1] for r in sorted(rows, key=lambda r: (r[1], r[0]))] == touched, rows
+assert all(r[2] == 0 and r[3] == 0 for r in rows), rows
+END
+
 # ---- Real files
 if [[ -d $data/photos ]]; then
   for device in $devices; do
@@ -330,6 +358,18 @@ if [[ -d $data/photos ]]; then
       fail "render --scene $file: exit status $got" "$(cat err.txt)"
   done
   expect 0 '262267 triangles\) 16x9' "${render[@]}" --scene "$data/crytek_sponza/sponza.glb" --camera -60,8,0,60,20,0,60 --sky "$data/hdri/vestibule_1k.hdr" -o sponza.png
+  expect 0 '69451 triangles, 0 skipped .* 53856 occupied voxels' "$luxel" voxelize --mesh "$data/stanford_bunny/stanford-bunny.obj" --resolution 128 --origin -0.09624699,0.030747509999999992,-0.08094349 --voxel 0.0012407264062500002 -o bunny.npy
+  python "$data/numeric/vox_bunny_stanford_128.npy" <<'END'
+shape, v = read('bunny.npy')
+bits, n = open(sys.argv[1], 'rb').read()[128:], 128
+wrong = 0
+for x in range(n):
+    for y in range(n):
+        for z in range(n):
+            i = (x * n + y) * n + z
+            wrong += (bits[i >> 3] >> (7 - (i & 7)) & 1) != (v[4 * ((z * n + y) * n + x) + 3] > 0)
+assert wrong == 0, wrong
+END
   head -c 100000 "$data/crytek_sponza/sponza.glb" >cut.glb
   expect 2 'cut\.glb: ' "${render[@]}" --scene cut.glb -o cut_out.png
   # OpenCV's result on the same crop, with the same taps and border.

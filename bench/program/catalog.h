@@ -110,6 +110,20 @@ inline const std::vector<Kernel>& catalog() {
         {"--error", 0, 1e30, false, "0", "", "a cone ends once at most this part of light passes"},
         {"--pattern-x", 1, 64, true, "1", "", "neighbouring receivers of a row that the cones are dealt to"},
         {"--pattern-y", 1, 64, true, "1", "", "rows of them"}}},
+      {"voxelize",
+       "triangle meshes into voxels: base colour and coverage",
+       {{"conservative", "a voxel is touched where its closed box meets the triangle: 26-separating"},
+        {"thin", "where a segment that joins the centres of opposite faces meets it: 6-separating"},
+        {"dilated", "the triangle moved outwards by half a pixel: covers too much at acute corners; for comparison"}},
+       {{"--mode", {"conservative", "thin", "dilated"}, "conservative", "which variant"},
+        {"--merging",
+         {"exact", "moving_average", "last_write"},
+         "exact",
+         "how triangles share a voxel: area-weighted means in integers, a mean in 8 bits, or whichever comes last; the "
+         "last two depend on timing"},
+        {"--format", {"f32", "f16", "unorm8"}, "f32", "how the device stores the volume"}},
+       {{"--resolution", 1, 2048, true, "", "voxels", "along each side of the cube"},
+        {"--voxel", 1e-300, 1e300, false, "the bounding cube by the resolution", "scene units", "side of a voxel, with --origin"}}},
   };
   return kernels;
 }

@@ -10,6 +10,7 @@ void add_list(CLI::App& app, int& exit_status);
 void add_gaussian_blur(CLI::App& app, int& exit_status);
 void add_mip_build(CLI::App& app, int& exit_status);
 void add_cone_trace(CLI::App& app, int& exit_status);
+void add_voxelize(CLI::App& app, int& exit_status);
 void add_render(CLI::App& app, int& exit_status);
 void add_bench(CLI::App& app, int& exit_status);
 void add_report(CLI::App& app, int& exit_status);
