@@ -256,6 +256,7 @@ expect 2 '--method: guess is not known; expected' "${render[@]}" --scene cornell
 expect 2 '--show: shadows is not known; expected all, direct' "${render[@]}" --scene cornell --show shadows -o a.png
 expect 2 '--size: 16 is not understood; expected WxH' "$luxel" render --scene cornell --size 16 -o a.png
 expect 2 '--size: 0x9 is not understood' "$luxel" render --scene cornell --size 0x9 -o a.png
+expect 2 '--size: 8192x8192 is not understood' "$luxel" render --scene cornell --size 8192x8192 -o a.png
 expect 2 '--camera: 1,2,3 is not understood; expected ex,ey,ez,tx,ty,tz,fov' "${render[@]}" --scene cornell --camera 1,2,3 -o a.png
 expect 2 '--camera: .*an eye away from its target' "${render[@]}" --scene cornell --camera 1,2,3,1,2,3,40 -o a.png
 expect 2 '--camera: .*below 180 degrees' "${render[@]}" --scene cornell --camera 1,2,3,0,0,0,180 -o a.png

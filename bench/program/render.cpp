@@ -91,13 +91,14 @@ Status set_sky(const std::string& text, scene::Sky& sky) {
 }
 
 Status set_size(const std::string& text, int& width, int& height) {
-  constexpr const char* expected = "WxH, each 1..16384";
+  constexpr const char* expected = "WxH, each 1..8192, 2^23 pixels at most";  // truth takes a kilobyte for each
   const char* end = text.data() + text.size();
   const auto w = std::from_chars(text.data(), end, width);
   if (w.ec != std::errc() || w.ptr == end || *w.ptr != 'x') return wrong("size", text, expected);
   const auto h = std::from_chars(w.ptr + 1, end, height);
   if (h.ec != std::errc() || h.ptr != end) return wrong("size", text, expected);
-  if (width < 1 || height < 1 || width > 16384 || height > 16384) return wrong("size", text, expected);
+  if (width < 1 || height < 1 || width > 8192 || height > 8192 || width * height > 1 << 23)
+    return wrong("size", text, expected);
   return {};
 }
 
@@ -271,7 +272,7 @@ void add_render(CLI::App& app, int& exit_status) {
       ->type_name("DIR");
   command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")
       ->type_name("ex,ey,ez,tx,ty,tz,fov");
-  command->add_option("--size", a->size, "pixels, each side 1..16384; default 640x360")->type_name("WxH");
+  command->add_option("--size", a->size, "pixels, each side 1..8192, 2^23 at most; default 640x360")->type_name("WxH");
   command
       ->add_option("--sun", a->sun,
                    "direction towards the sun, and irradiance on a plane that faces it; default: the scene's")
@@ -296,7 +297,7 @@ void add_render(CLI::App& app, int& exit_status) {
   command->add_option("--bounces", a->bounces, "of truth: diffuse bounces, 0..1000; default 0: without end")
       ->type_name("INT")->check(within(0, 1000, true));
   add_device_option(*command, a->device);
-  command->footer("Truth runs on the CPU whatever --device says, and is kept in LUXEL_CACHE.");
+  command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });
 }
 

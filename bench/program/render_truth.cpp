@@ -1,6 +1,8 @@
 #include <cmath>
+#include <cstdio>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "render.h"
 
@@ -22,7 +24,15 @@ double noise(const truth::Estimate& e) {
 
 Result<RenderOutput> render_truth(const RenderInput& input) {
   const scene::GBuffer& g = input.gbuffer;
-  const auto traced = path_truth(input.rays, truth::receivers(g, input.scene.camera.eye), input.settings);
+  truth::PathSettings settings = input.settings;
+  int shown = -1;
+  if (isatty(STDERR_FILENO))
+    settings.progress = [&](double share) {
+      const int percent = static_cast<int>(share * 100);
+      if (percent != shown) std::fprintf(stderr, "\rtracing paths: %d %% ", shown = percent);
+    };
+  const auto traced = path_truth(input.rays, truth::receivers(g, input.scene.camera.eye), settings);
+  if (shown >= 0) std::fprintf(stderr, "\r\033[K");
   if (!traced) return traced.status();
   const truth::PathTruth& t = traced.value();
   RenderOutput out;

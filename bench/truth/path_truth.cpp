@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <mutex>
 #include <numbers>
 #include <thread>
 
@@ -18,9 +20,11 @@ namespace luxel::truth {
 namespace {
 
 using glm::dvec3;
+namespace fs = std::filesystem;
 using scene::Hit;
 
 constexpr double pi = std::numbers::pi;
+constexpr std::uintmax_t cache_bytes = std::uintmax_t{2} << 30;  // a receiver takes 672
 constexpr std::uint32_t version = 2;  // of what is computed: a change makes old cache files useless
 
 enum Quantity {
@@ -180,15 +184,21 @@ class Tracer {
 };
 
 template <class Work>
-void on_threads(std::size_t n, int threads, const Work& work) {
-  if (threads < 1) threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+void on_threads(std::size_t n, const PathSettings& settings, const Work& work) {
+  const int threads =
+      settings.threads > 0 ? settings.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   constexpr std::size_t chunk = 16;
   std::atomic<std::size_t> next{0};
+  std::mutex telling;
   std::vector<std::jthread> workers;
   for (int t = 0; t < threads; ++t)
     workers.emplace_back([&] {
-      for (std::size_t first = next.fetch_add(chunk); first < n; first = next.fetch_add(chunk))
+      for (std::size_t first = next.fetch_add(chunk); first < n; first = next.fetch_add(chunk)) {
         for (std::size_t i = first; i < std::min(n, first + chunk); ++i) work(i);
+        if (!settings.progress) continue;
+        const std::lock_guard lock(telling);
+        settings.progress(static_cast<double>(first) / static_cast<double>(n));
+      }
     });
 }
 
@@ -246,6 +256,23 @@ bool load(const std::string& file, PathTruth& truth) {
   return true;
 }
 
+// Until the folder is small enough. Another process may do the same at the same time.
+void forget_oldest(const fs::path& folder) {
+  std::error_code error;
+  std::vector<std::pair<fs::file_time_type, fs::path>> files;
+  std::uintmax_t total = 0;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    files.emplace_back(entry.last_write_time(error), entry.path());
+    const std::uintmax_t size = entry.file_size(error);
+    total += error ? 0 : size;
+  }
+  std::sort(files.begin(), files.end());
+  for (std::size_t i = 0; i + 1 < files.size() && total > cache_bytes; ++i) {
+    const std::uintmax_t size = fs::file_size(files[i].second, error);
+    if (!error && fs::remove(files[i].second, error)) total -= std::min(total, size);
+  }
+}
+
 void save(const std::string& file, PathTruth& truth) {
   std::vector<std::uint8_t> bytes;
   for (const Estimate* e : parts(truth))
@@ -253,7 +280,9 @@ void save(const std::string& file, PathTruth& truth) {
       const auto* first = reinterpret_cast<const std::uint8_t*>(values->data());
       bytes.insert(bytes.end(), first, first + values->size() * sizeof(double));
     }
+  if (bytes.size() > cache_bytes / 4) return;
   (void)write_checked(file, bytes);  // a cache that cannot be written costs time alone
+  forget_oldest(fs::path(file).parent_path());
 }
 
 void trace_receiver(const Tracer& tracer, const Receiver& r, std::size_t i, const PathSettings& settings,
@@ -333,7 +362,7 @@ Result<PathTruth> path_truth(const scene::Rays& rays, const std::vector<Receiver
 
   const auto begin = std::chrono::steady_clock::now();
   const Tracer tracer(rays, settings);
-  on_threads(receivers.size(), settings.threads, [&](std::size_t i) {
+  on_threads(receivers.size(), settings, [&](std::size_t i) {
     if (receivers[i].normal != dvec3(0)) trace_receiver(tracer, receivers[i], i, settings, truth);
   });
   truth.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -1,5 +1,6 @@
 // What light a scene really sends to points: path tracing in double, in two independent halves, with standard errors.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct PathSettings {
   std::uint32_t seed = 1;
   int threads = 0;               // 0: as many as there are cores. Results do not depend on it
   bool cached = true;            // whether a result may come from, and go to, the disk (luxel::cache_directory)
+  std::function<void(double)> progress{};  // where given, told now and then which share is done, by one thread at a time
 };
 
 /// An estimate for every receiver: two independent halves, and the standard error of their mean. Half the width of the
