@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/check.h"
 #include "host/planner.h"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr int brick_side = 8;
 constexpr std::size_t brick_voxels = 512;
-constexpr double steps = 16384;  // of irradiance_max, as kernels/voxelize/voxel_inject_map has it
+constexpr double steps = 16384;           // of irradiance_max, as kernels/voxelize/voxel_inject_map has it
 constexpr std::uint32_t strided = 65536;  // invocations of passes that stride over their work
 
 std::size_t bricks_of(const VoxelInjectParams& p) {
@@ -73,9 +74,10 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
   const Slot counters = resource("voxel_counters", Format::u32, 64);
   const Slot lights =
       list ? resource("lights", Format::f32x4, static_cast<std::size_t>(std::max(p.lights, 1)) * 48) : Slot{};
-  const Slot texels = map ? resource("map", Format::f32x4,
-                                     static_cast<std::size_t>(p.map_width) * static_cast<std::size_t>(p.map_height) * 32)
-                          : Slot{};
+  const Slot texels =
+      map ? resource("map", Format::f32x4,
+                     static_cast<std::size_t>(p.map_width) * static_cast<std::size_t>(p.map_height) * 32)
+          : Slot{};
   const Slot radiance = resource("radiance", p.format, voxels * pixel, true);
   const Slot outcomes = p.count ? resource("outcomes", Format::u32, 32, true) : planner.scratch(Format::u32, 8);
 
@@ -115,12 +117,18 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
     planner.cost(0, static_cast<double>(p.map_width) * p.map_height * 48.0);
   }
 
-  std::vector<std::pair<std::string_view, Slot>> slots{
-      {"colour", colour}, {"brick_list", bricks}, {"voxel_counters", counters}, {"radiance", radiance}, {"outcomes", outcomes}};
+  std::vector<std::pair<std::string_view, Slot>> slots{{"colour", colour},
+                                                       {"brick_list", bricks},
+                                                       {"voxel_counters", counters},
+                                                       {"radiance", radiance},
+                                                       {"outcomes", outcomes}};
   if (list) slots.insert(slots.end(), {{"normal", normal}, {"lights", lights}});
   if (map) slots.emplace_back("sums", sums);
   if (p.emission) slots.emplace_back("emission", emission);
-  const std::string module = std::string(!map ? "lights_" : list ? "both_" : "map_") + (p.emission ? "emission_" : "") + format;
+  const std::string module = std::string(!map   ? "lights_"
+                                         : list ? "both_"
+                                                : "map_") +
+                             (p.emission ? "emission_" : "") + format;
   planner.pass("voxel_inject", module, "voxel_inject", {brick_voxels, capacity, 1}, line,
                {{"width", p.width},
                 {"height", p.height},
@@ -136,7 +144,8 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
   return std::move(planner).finish();
 }
 
-std::vector<float> voxel_lights(const std::vector<VoxelLight>& lights, const std::array<double, 3>& origin, double voxel) {
+std::vector<float> voxel_lights(const std::vector<VoxelLight>& lights, const std::array<double, 3>& origin,
+                                double voxel) {
   std::vector<float> words;
   words.reserve(lights.size() * 12);
   const auto append = [&](std::array<double, 3> v, double scale, double w) {
@@ -150,7 +159,7 @@ std::vector<float> voxel_lights(const std::vector<VoxelLight>& lights, const std
     if (!sun)
       for (int i = 0; i < 3; ++i) place[i] -= origin[i];
     append(place, sun ? unit(place) : 1 / voxel, static_cast<int>(light.kind));
-    append(light.power, 1, 0);
+    append(light.power, 1, light.area / (std::numbers::pi * voxel * voxel));
     append(light.normal, unit(light.normal), 0);
   }
   return words;

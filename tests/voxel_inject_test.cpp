@@ -81,8 +81,12 @@ std::vector<Bytes> inject(const std::string& device, const Grid& g, const VoxelI
     inputs.push_back({"normal", encode(p.format, normal, wide)});
   }
   const std::size_t lights = static_cast<std::size_t>(p.lights) * 12;
-  if (lights > 0) inputs.push_back({"lights", encode(Format::f32x4, {light.begin(), light.begin() + static_cast<std::ptrdiff_t>(lights)}, wide)});
-  if (p.map_width > 0) inputs.push_back({"map", encode(Format::f32x4, {light.begin() + static_cast<std::ptrdiff_t>(lights), light.end()}, wide)});
+  if (lights > 0)
+    inputs.push_back(
+        {"lights", encode(Format::f32x4, {light.begin(), light.begin() + static_cast<std::ptrdiff_t>(lights)}, wide)});
+  if (p.map_width > 0)
+    inputs.push_back(
+        {"map", encode(Format::f32x4, {light.begin() + static_cast<std::ptrdiff_t>(lights), light.end()}, wide)});
   if (p.emission) inputs.push_back({"emission", encode(p.format, g.emission, wide)});
   if (!before.empty()) inputs.push_back({"radiance", before});
   std::vector<std::string> outputs{"radiance"};
@@ -125,7 +129,8 @@ TEST(VoxelInject, ASunOnAFloorGivesLambertsCosine) {
   g.list_bricks();
   for (const double degrees : {0.0, 30.0, 60.0, 85.0}) {
     const double angle = degrees * std::numbers::pi / 180;
-    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {std::sin(angle), std::cos(angle), 0}, {2, 3, 4}, {0, 0, 0}}}, {0, 0, 0}, 1);
+    const std::vector<float> light = voxel_lights(
+        {{VoxelLight::Kind::sun, {std::sin(angle), std::cos(angle), 0}, {2, 3, 4}, {0, 0, 0}, 0}}, {0, 0, 0}, 1);
     for (const std::string& device : all_devices()) {
       VoxelInjectParams p = g.params();
       p.lights = 1;
@@ -135,7 +140,8 @@ TEST(VoxelInject, ASunOnAFloorGivesLambertsCosine) {
         for (int x = 0; x < g.n[0]; ++x)
           for (int c = 0; c < 3; ++c) {
             const double expected = g.colour[g.at(x, 2, z) * 4 + c] / std::numbers::pi * (2 + c) * std::cos(angle);
-            EXPECT_NEAR(r[g.at(x, 2, z) * 4 + c], expected, expected * float_bound + 1e-7 * std::cos(angle)) << device << " " << degrees;
+            EXPECT_NEAR(r[g.at(x, 2, z) * 4 + c], expected, expected * float_bound + 1e-7 * std::cos(angle))
+                << device << " " << degrees;
           }
       EXPECT_EQ(r[g.at(3, 3, 3) * 4 + 3], 0) << device;
       EXPECT_EQ(r[g.at(3, 2, 3) * 4 + 3], 1) << device;
@@ -152,7 +158,7 @@ TEST(VoxelInject, APointLightFallsOffWithTheSquareInSceneUnits) {
   const double voxel = 0.25;
   const Vec place{origin[0] + 8.5 * voxel, origin[1] + 1.5 * voxel + 2.5, origin[2] + 8.5 * voxel};
   for (const auto kind : {VoxelLight::Kind::point, VoxelLight::Kind::patch}) {
-    const std::vector<float> light = voxel_lights({{kind, place, {1, 1, 1}, {0, -3, 0}}}, origin, voxel);
+    const std::vector<float> light = voxel_lights({{kind, place, {1, 1, 1}, {0, -3, 0}, 0}}, origin, voxel);
     for (const std::string& device : all_devices()) {
       VoxelInjectParams p = g.params();
       p.lights = 1;
@@ -169,6 +175,29 @@ TEST(VoxelInject, APointLightFallsOffWithTheSquareInSceneUnits) {
   }
 }
 
+TEST(VoxelInject, APatchThatTouchesSendsNoMoreThanItsRadiance) {
+  Grid g(8, 8, 8);
+  floor_at(g, 1);
+  g.list_bricks();
+  // A disc of radius 1/2 voxel, radiance 2, seen along its axis: E = pi L r^2 / (d^2 + r^2).
+  const double radius = 0.5, area = std::numbers::pi * radius * radius;
+  for (const double d : {1e-6, 0.25, 1.0, 4.0}) {
+    const std::vector<float> light =
+        voxel_lights({{VoxelLight::Kind::patch, {3.5, 1.5 + d, 3.5}, {2 * area, 2 * area, 2 * area}, {0, -1, 0}, area}},
+                     {0, 0, 0}, 1);
+    for (const std::string& device : all_devices()) {
+      VoxelInjectParams p = g.params();
+      p.lights = 1;
+      const std::vector<double> r = radiance(device, g, p, light);
+      ASSERT_EQ(r.size(), g.voxels() * 4);
+      const double expected = 0.5 * 2 * radius * radius / (d * d + radius * radius);
+      // The distance is a difference of floats of about 2.
+      EXPECT_NEAR(r[g.at(3, 1, 3) * 4], expected, expected * (float_bound + (d < 1e-3 ? 1e-2 : 1e-6)))
+          << device << " " << d;
+    }
+  }
+}
+
 TEST(VoxelInject, APlateCastsItsShadowAndGlassPassesItsShare) {
   for (const float opacity : {1.0f, 0.5f}) {
     Grid g(24, 16, 24);
@@ -176,7 +205,7 @@ TEST(VoxelInject, APlateCastsItsShadowAndGlassPassesItsShare) {
     for (int z = 8; z < 16; ++z)
       for (int x = 8; x < 16; ++x) g.put(x, 9, z, {0, 0, 0, opacity}, {0, 1, 0});
     g.list_bricks();
-    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {0, 1, 0}, {1, 1, 1}, {}}}, {0, 0, 0}, 1);
+    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {0, 1, 0}, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
     for (const std::string& device : all_devices()) {
       VoxelInjectParams p = g.params();
       p.lights = 1;
@@ -189,7 +218,6 @@ TEST(VoxelInject, APlateCastsItsShadowAndGlassPassesItsShare) {
           const bool under = x >= 8 && x < 16 && z >= 8 && z < 16;
           const double full = 0.5 / std::numbers::pi;
           EXPECT_NEAR(r[g.at(x, 1, z) * 4], under ? full * (1 - opacity) : full, full * float_bound) << device;
-
         }
       const std::vector<std::uint32_t> outcomes = words(out[1]);
       const std::uint32_t unlit = opacity == 1 ? 64u : 0u;
@@ -225,19 +253,21 @@ Grid random_grid() {
   for (int z = 0; z < g.n[2]; ++z)
     for (int y = 0; y < g.n[1]; ++y)
       for (int x = 0; x < g.n[0]; ++x) {
-        const float r[8] = {uniform(i), uniform(i + 1), uniform(i + 2), uniform(i + 3), uniform(i + 4), uniform(i + 5), uniform(i + 6), uniform(i + 7)};
+        const float r[8] = {uniform(i),     uniform(i + 1), uniform(i + 2), uniform(i + 3),
+                            uniform(i + 4), uniform(i + 5), uniform(i + 6), uniform(i + 7)};
         i += 8;
         if (r[0] < 0.8f) continue;
-        g.put(x, y, z, {r[1], r[2], r[3], r[0] < 0.84f ? 1.0f : 0.05f + 0.9f * r[4]}, {0.57f * (2 * r[5] - 1), 0.57f * (2 * r[6] - 1), 0.57f * (2 * r[7] - 1)});
+        g.put(x, y, z, {r[1], r[2], r[3], r[0] < 0.84f ? 1.0f : 0.05f + 0.9f * r[4]},
+              {0.57f * (2 * r[5] - 1), 0.57f * (2 * r[6] - 1), 0.57f * (2 * r[7] - 1)});
         for (int c = 0; c < 3; ++c) g.emission[g.at(x, y, z) * 4 + c] = r[c + 4];
       }
   g.list_bricks();
   return g;
 }
 
-const std::vector<VoxelLight> several{{VoxelLight::Kind::sun, {0.3, 0.8, 0.2}, {1, 0.5, 0.25}, {}},
-                                      {VoxelLight::Kind::point, {6.3, 20.1, 8.2}, {100, 200, 300}, {}},
-                                      {VoxelLight::Kind::patch, {-5.2, 4.7, 3.1}, {50, 20, 10}, {2, 0.5, 0.1}}};
+const std::vector<VoxelLight> several{{VoxelLight::Kind::sun, {0.3, 0.8, 0.2}, {1, 0.5, 0.25}, {}, 0},
+                                      {VoxelLight::Kind::point, {6.3, 20.1, 8.2}, {100, 200, 300}, {}, 0},
+                                      {VoxelLight::Kind::patch, {-5.2, 4.7, 3.1}, {50, 20, 10}, {2, 0.5, 0.1}, 0}};
 
 TEST(VoxelInject, LightsThroughAnyVolume) {
   const Grid g = random_grid();
@@ -287,11 +317,14 @@ TEST(VoxelInject, LightsThroughAnyVolume) {
             for (int c = 0; c < 3; ++c) e[c] += share * light[12 * k + 4 + c];
           }
           for (int c = 0; c < 3; ++c) {
-            const double expected = g.coverage(x, y, z) * (g.colour[at + c] / std::numbers::pi * e[c] + g.emission[at + c]);
+            const double expected =
+                g.coverage(x, y, z) * (g.colour[at + c] / std::numbers::pi * e[c] + g.emission[at + c]);
             const double error = std::abs(r[at + c] - expected) / std::max(1.0, expected);
             ++compared;
-            if (error > 2e-5) ++differ;
-            else worst = std::max(worst, error);
+            if (error > 2e-5)
+              ++differ;
+            else
+              worst = std::max(worst, error);
           }
         }
     EXPECT_GT(compared, 1000);
@@ -313,7 +346,8 @@ TEST(VoxelInject, SameBitsOnEveryDevice) {
       p.scale = 0.25;
       p.count = true;
       const std::vector<Bytes> expected = inject("cpu", g, p, light);
-      for (const std::string& device : test_devices()) EXPECT_EQ(inject(device, g, p, light), expected) << device << " " << name(format);
+      for (const std::string& device : test_devices())
+        EXPECT_EQ(inject(device, g, p, light), expected) << device << " " << name(format);
     }
 }
 
@@ -321,7 +355,9 @@ TEST(VoxelInject, SameBitsOnEveryDevice) {
 
 struct Texels {
   std::vector<float> words;
-  void add(float x, float y, float z, float valid, float r, float g, float b) { words.insert(words.end(), {x, y, z, valid, r, g, b, 0}); }
+  void add(float x, float y, float z, float valid, float r, float g, float b) {
+    words.insert(words.end(), {x, y, z, valid, r, g, b, 0});
+  }
 };
 
 TEST(VoxelInject, AMapsTexelsAreAveragedInAnyOrder) {
@@ -341,7 +377,8 @@ TEST(VoxelInject, AMapsTexelsAreAveragedInAnyOrder) {
     for (int c = 0; c < 3; ++c) sum[at * 3 + c] += std::floor(e[c] * (16384 / 2.0) + 0.5) / (16384 / 2.0);
   }
   Texels turned;
-  for (std::size_t i = map.words.size(); i > 0; i -= 8) turned.words.insert(turned.words.end(), &map.words[i - 8], &map.words[i - 8] + 8);
+  for (std::size_t i = map.words.size(); i > 0; i -= 8)
+    turned.words.insert(turned.words.end(), &map.words[i - 8], &map.words[i - 8] + 8);
   VoxelInjectParams p = g.params();
   p.map_width = 64;
   p.map_height = 32;
@@ -351,7 +388,9 @@ TEST(VoxelInject, AMapsTexelsAreAveragedInAnyOrder) {
   for (const std::string& device : all_devices()) {
     const std::vector<Bytes> out = inject(device, g, p, map.words);
     ASSERT_EQ(out.size(), 2u);
-    if (device != "cpu:double") { EXPECT_EQ(out, cpu) << device; }
+    if (device != "cpu:double") {
+      EXPECT_EQ(out, cpu) << device;
+    }
     EXPECT_EQ(inject(device, g, p, turned.words), out) << device;
     const std::vector<double> r = decode(p.format, out[0], test_context(device).real64());
     std::uint32_t unlit = 0;
@@ -359,7 +398,8 @@ TEST(VoxelInject, AMapsTexelsAreAveragedInAnyOrder) {
       if (g.colour[at * 4 + 3] == 0) continue;
       unlit += count[at] == 0;
       for (int c = 0; c < 3; ++c) {
-        const double expected = count[at] == 0 ? 0 : g.colour[at * 4 + c] / std::numbers::pi * sum[at * 3 + c] / count[at];
+        const double expected =
+            count[at] == 0 ? 0 : g.colour[at * 4 + c] / std::numbers::pi * sum[at * 3 + c] / count[at];
         EXPECT_NEAR(r[at * 4 + c], expected, float_bound * std::max(expected, 1.0));
       }
     }
@@ -376,16 +416,16 @@ TEST(VoxelInject, BadTexelsAreDroppedAndCounted) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   Texels map;
   map.add(1.5f, 3.5f, 1.5f, 1, 1, 1, 1);
-  map.add(1.5f, 3.5f, 1.5f, 1, 5, 1, 1);          // brighter than irradiance_max: saturated, kept as that
-  map.add(1.5f, 6.5f, 1.5f, 1, 1, 1, 1);          // an empty voxel
-  map.add(-0.5f, 3.5f, 1.5f, 1, 1, 1, 1);         // outside
-  map.add(1.5f, 3.5f, 8.0f, 1, 1, 1, 1);          // on the outer face
+  map.add(1.5f, 3.5f, 1.5f, 1, 5, 1, 1);   // brighter than irradiance_max: saturated, kept as that
+  map.add(1.5f, 6.5f, 1.5f, 1, 1, 1, 1);   // an empty voxel
+  map.add(-0.5f, 3.5f, 1.5f, 1, 1, 1, 1);  // outside
+  map.add(1.5f, 3.5f, 8.0f, 1, 1, 1, 1);   // on the outer face
   map.add(nan, 3.5f, 1.5f, 1, 1, 1, 1);
   map.add(1e30f, 3.5f, infinity, 1, 1, 1, 1);
   map.add(1.5f, 3.5f, 1.5f, 1, nan, 1, 1);
   map.add(1.5f, 3.5f, 1.5f, 1, 1, infinity, 1);
   map.add(1.5f, 3.5f, 1.5f, 1, 1, 1, -1);
-  map.add(2.5f, 3.5f, 1.5f, nan, 1, 1, 1);        // not valid, and so not counted
+  map.add(2.5f, 3.5f, 1.5f, nan, 1, 1, 1);  // not valid, and so not counted
   map.add(2.5f, 3.5f, 1.5f, 0, nan, 1, 1);
   VoxelInjectParams p = g.params();
   p.map_width = 4;
@@ -421,7 +461,9 @@ TEST(VoxelInject, LightsAndAMapAddUp) {
   const std::vector<double> by_lights = radiance("cpu:double", g, p, lights);
   ASSERT_EQ(together.size(), by_map.size());
   for (std::size_t i = 0; i < together.size(); ++i)
-    if (i % 4 < 3) { ASSERT_NEAR(together[i], by_map[i] + by_lights[i], 1e-12 * (1 + together[i])); }
+    if (i % 4 < 3) {
+      ASSERT_NEAR(together[i], by_map[i] + by_lights[i], 1e-12 * (1 + together[i]));
+    }
 }
 
 // --- What is left out, and refusals
@@ -432,7 +474,7 @@ TEST(VoxelInject, WithoutClearingOnlyTouchedBricksAreWritten) {
   g.put(20, 3, 3, {1, 1, 1, 1}, {0, 1, 0});
   g.list_bricks();
   ASSERT_EQ(g.bricks.size(), 2u);
-  const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {0, 1, 0}, {1, 1, 1}, {}}}, {0, 0, 0}, 1);
+  const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {0, 1, 0}, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
   VoxelInjectParams p = g.params();
   p.lights = 1;
   p.clear = false;
@@ -455,7 +497,7 @@ TEST(VoxelInject, AVoxelWithoutANormalIsLitFromEverywhere) {
   g.put(3, 3, 3, {1, 1, 1, 1}, {0, 0, 0});
   g.list_bricks();
   for (const Vec to : {Vec{0, 1, 0}, Vec{-1, 2, 0.5}}) {
-    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, to, {1, 1, 1}, {}}}, {0, 0, 0}, 1);
+    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, to, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
     for (const std::string& device : all_devices()) {
       VoxelInjectParams p = g.params();
       p.lights = 1;

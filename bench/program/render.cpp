@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -18,6 +18,7 @@ using glm::dvec3;
 
 // A method that is added here is an option of the command.
 constexpr RenderMethod methods[] = {
+    {"cone", "voxel cone tracing on a device", render_cone},
     {"truth", "path tracing on the CPU, two independent halves", render_truth},
 };
 
@@ -28,7 +29,9 @@ struct Arguments {
   std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers,
                              show = shown[0];
   double exposure = 0, ao_falloff = -1, ao_distance = 0;
-  int samples = 64, bounces = 0;
+  int samples = 64, bounces = 0, resolution = 128, cone_count = 6;
+  double aperture = 0, step = 0.5, offset = 1;
+  bool anisotropic = false, thin = false;
 };
 
 // Numbers between commas. Empty unless there are `count` and all are finite.
@@ -151,19 +154,6 @@ Status write_buffers(const std::string& folder, const scene::GBuffer& g, const s
   return {};
 }
 
-class Clock {
- public:
-  double ms() {
-    const auto now = std::chrono::steady_clock::now();
-    const double passed = std::chrono::duration<double, std::milli>(now - last_).count();
-    last_ = now;
-    return passed;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
 int run(const Arguments& a) {
   if (Status s = io::check_image_path(a.out); !s) return complain(s);
   int width = 0, height = 0;
@@ -200,7 +190,17 @@ int run(const Arguments& a) {
   settings.bounces = a.bounces;
   settings.ao_falloff = a.ao_falloff >= 0 ? a.ao_falloff : 10 / std::max(glm::length(box.high - box.low), 1e-9);
   if (a.ao_distance > 0) settings.ao_distance = a.ao_distance;
-  auto rendered = method->run({scene, rays.value(), g, a.device, settings});
+  scene::VoxelSceneSettings voxels;
+  voxels.resolution = a.resolution;
+  voxels.variant = a.anisotropic ? ConeVariant::anisotropic : ConeVariant::isotropic;
+  voxels.mode = a.thin ? VoxelizeMode::thin : VoxelizeMode::conservative;
+  ConeTraceParams cones;
+  const auto set = cone_set(a.cone_count, a.aperture * std::numbers::pi / 180);
+  if (!set) return complain(set.status());
+  cones.cones = set.value();
+  cones.step_scale = a.step;
+  cones.normal_offset = a.offset;
+  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones});
   if (!rendered) return complain(rendered.status());
   RenderOutput& output = rendered.value();
   clock.ms();
@@ -296,6 +296,15 @@ void add_render(CLI::App& app, int& exit_status) {
       ->type_name("INT")->check(within(1, 1048576, true));
   command->add_option("--bounces", a->bounces, "of truth: diffuse bounces, 0..1000; default 0: without end")
       ->type_name("INT")->check(within(0, 1000, true));
+  command->add_option("--resolution", a->resolution, "of cone: voxels along each side, 8..1024; default 128")
+      ->type_name("N")->check(within(8, 1024, true));
+  command->add_flag("--thin", a->thin, "of cone: 6-separating voxels; default: 26-separating");
+  command->add_flag("--anisotropic", a->anisotropic, "of cone: six directional volumes a level");
+  command->add_option("--cones", a->cone_count, "of cone: 1, 4, 5, 6, 8, 9, 16 or 25; default 6")->type_name("N")->check(within(1, 25, true));
+  command->add_option("--aperture", a->aperture, "of cone: full angle, degrees, 0..149; default 0: the set's own")
+      ->type_name("DEG")->check(within(0, 149, false));
+  command->add_option("--step", a->step, "of cone: in diameters of the cone, 0.0625..4; default 0.5")->type_name("NUMBER")->check(within(0.0625, 4, false));
+  command->add_option("--offset", a->offset, "of cone: voxels above the surface where cones start, 0..64; default 1")->type_name("NUMBER")->check(within(0, 64, false));
   add_device_option(*command, a->device);
   command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });

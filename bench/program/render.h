@@ -1,11 +1,13 @@
 // Methods of `luxel render`: how the light at the pixels of a G-buffer is found.
 #pragma once
+#include <chrono>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/io/image.h"
 #include "bench/scene/compose.h"
+#include "bench/scene/voxel_scene.h"
 #include "bench/truth/path_truth.h"
 
 namespace luxel::program {
@@ -17,6 +19,8 @@ struct RenderInput {
   const scene::GBuffer& gbuffer;
   std::string device;             // as --device names it; empty: the first that works
   truth::PathSettings settings;   // ambient occlusion's falloff and reach hold for every method
+  scene::VoxelSceneSettings voxels;
+  ConeTraceParams cones;          // how they are traced; volumes and receivers are the method's own
 };
 
 /// Milliseconds that a step took; `phase` is build (once for a scene), update (once for a change of light) or shade (once
@@ -24,6 +28,20 @@ struct RenderInput {
 struct StepTime {
   std::string phase, step;
   double ms = 0;
+};
+
+/// Milliseconds since the last call, or since it was made.
+class Clock {
+ public:
+  double ms() {
+    const auto now = std::chrono::steady_clock::now();
+    const double passed = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return passed;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 struct RenderOutput {
@@ -40,5 +58,6 @@ struct RenderMethod {
 };
 
 Result<RenderOutput> render_truth(const RenderInput& input);
+Result<RenderOutput> render_cone(const RenderInput& input);
 
 }  // namespace luxel::program

@@ -21,6 +21,8 @@ struct VoxelLight {
   std::array<double, 3> power{1, 1, 1};   // r, g, b, >= 0. sun: irradiance on a plane that faces it; point: radiant
                                           // intensity; patch: radiance times area
   std::array<double, 3> normal{0, -1, 0}; // patch: of its front, any length but 0
+  double area = 0;                        // patch: scene units squared. A patch of radiance L never sends more than pi L:
+                                          // at distance d it counts as a disc seen along its axis, 1 / (d^2 + area / pi)
 };
 
 struct VoxelInjectParams {

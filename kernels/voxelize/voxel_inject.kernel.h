@@ -78,7 +78,7 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
         if (squared == 0.0f) return vec3(0.0f);
         reach = sqrt(squared);
         to = to / reach;
-        share = 1.0f / (squared * params.voxel * params.voxel);
+        share = 1.0f / ((squared + power.w) * params.voxel * params.voxel);
         if (place.w == float(LIGHT_PATCH)) {
             share = share * max(0.0f, -inner(to, vec3(front.x, front.y, front.z)));
             reach = reach - params.normal_offset;

@@ -1,0 +1,118 @@
+// A scene in voxels on a device: voxelized once, lit whenever lights move, and seen through cones.
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <luxel/cone_trace.h>
+#include <luxel/device.h>
+#include <luxel/voxel_inject.h>
+#include <luxel/voxelize.h>
+
+#include "bench/scene/scene.h"
+
+namespace luxel::scene {
+
+/// The cube about all finite vertices, centred, padded by 1 % of its side at each end, N voxels along each side.
+VoxelGrid cube_around(const Scene& scene, int resolution);
+
+/// What voxelize takes of a scene's materials: base colour times (1 - metallic), opacity (blend: alpha), emission. Where
+/// voxelize does not sample their textures itself (`textures`, sRGB), times the texture's mean; mask: the share of it that
+/// is there.
+std::vector<float> voxel_materials(const Scene& scene, bool textures);
+
+/// A list of lights for voxel_inject: the sun, and each emitting triangle cut into pieces so that there are about `pieces`
+/// in all. Both of a triangle's sides emit.
+std::vector<VoxelLight> voxel_lights_of(const Scene& scene, int pieces);
+
+struct VoxelSceneSettings {
+  int resolution = 128;
+  Format format = Format::f16x4;  // of every volume
+  VoxelizeMode mode = VoxelizeMode::conservative;
+  ConeVariant variant = ConeVariant::isotropic;
+  bool textures = true;  // base-colour textures are sampled in the voxels; false: their mean
+  int lamp_pieces = 64;  // emitting triangles are lights of about so many pieces where they are no more than these and
+                         // no sky shines: lamps. Else cones gather what they send
+  int voxel_cones = 16;  // cones of a voxel that sky and many emitters light
+};
+
+/// What a step took: milliseconds of the device (where it has a clock, else of the host).
+struct VoxelStep {
+  std::string name;
+  double ms = 0;
+};
+
+/// Irradiance and visibility at points. What the scene does not have is empty: neither volumes nor cones are made for it.
+struct ConeLight {
+  std::vector<float>
+      direct;  // 4 a receiver: irradiance from the sky, and from emitting surfaces that are not lamps; visibility
+  std::vector<float> indirect;  // 4 a receiver: irradiance from surfaces that reflect light; visibility
+  std::vector<float> glossy;    // 4 a receiver: mean radiance in the specular lobe; empty where nothing is glossy
+};
+
+class VoxelScene {
+ public:
+  /// Voxelizes. Errors: of the kernels, and unsupported where a buffer does not fit the device, naming it.
+  static Result<VoxelScene> build(std::shared_ptr<Context> context, const Scene& scene,
+                                  const VoxelSceneSettings& settings);
+
+  /// Direct light of the scene's sun, sky and emitters into the voxels, and the pyramids of what cones read.
+  Status light();
+
+  /// The sun, and the emitters where they are few enough to be lamps: the lights that shadow rays reach. Cones gather the
+  /// direct light of everything else.
+  const std::vector<VoxelLight>& lights() const { return lights_; }
+
+  /// Traces. `cones`: cone set, step and so on; volumes, extents and environment are filled in. `views` (a vec4 each) may be
+  /// empty: then nothing is glossy.
+  Result<ConeLight> trace(const ConeTraceParams& cones, const std::vector<float>& receivers,
+                          const std::vector<float>& views);
+
+  const VoxelGrid& grid() const { return grid_; }
+  const VoxelTriangles& triangles() const { return triangles_; }
+  std::uint32_t occupied() const { return occupied_; }
+  std::size_t memory_bytes() const;
+  const std::vector<VoxelStep>& build_steps() const { return build_steps_; }
+  const std::vector<VoxelStep>& light_steps() const { return light_steps_; }
+  const std::vector<VoxelStep>& shade_steps() const { return shade_steps_; }
+
+  /// Level 0 of the volume of reflected light, as f32 [z][y][x][4].
+  Result<std::vector<float>> reflected();
+
+ private:
+  struct Pyramid {
+    std::shared_ptr<Memory> fine, coarse;
+    std::size_t bytes = 0;
+  };
+
+  VoxelScene(std::shared_ptr<Context> context, const Scene& scene, const VoxelSceneSettings& settings);
+  Status voxelize();
+  Status inject(Pyramid& pyramid, bool emission, const std::vector<VoxelLight>& lights, const std::vector<float>& map,
+                const char* name);
+  Status mip(Pyramid& pyramid, const char* name);
+  Result<std::vector<float>> cones(const ConeTraceParams& params, const Pyramid& pyramid,
+                                   const std::vector<float>& receivers, const std::vector<float>& views,
+                                   std::vector<float>* glossy, const char* name, std::vector<VoxelStep>& steps);
+  Status run(const Plan& plan, const std::vector<Named>& resources, const char* name, std::vector<VoxelStep>& steps);
+  Result<std::shared_ptr<Memory>> make(Format format, std::size_t count, const void* data = nullptr);
+  ConeTraceParams shape() const;
+  Result<std::vector<float>> voxel_receivers(std::vector<float>& places);
+
+  std::shared_ptr<Context> context_;
+  const Scene& scene_;
+  VoxelSceneSettings settings_;
+  VoxelGrid grid_;
+  VoxelTriangles triangles_;
+  std::uint32_t occupied_ = 0;
+  bool emission_ = false;
+  int bricks_ = 0;
+  std::size_t bytes_ = 0;
+  std::shared_ptr<Memory> colour_, normal_, emitted_, brick_list_, counters_;
+  Pyramid own_, reflected_;  // what surfaces emit (and the sky behind them), and what they reflect
+  bool gathered_ = false;    // whether cones gather direct light: of the sky, or of emitters that are no lamps
+  std::vector<VoxelLight> lights_;
+  std::vector<VoxelStep> build_steps_, light_steps_, shade_steps_;
+};
+
+}  // namespace luxel::scene
