@@ -25,4 +25,5 @@ check probe_test '*'
 check gaussian_blur_test 'GaussianBlurSmall*'
 check mip_build_test 'MipBuild/Formula*:MipBuild.ThreeLevels*'
 check voxelize_test 'VoxelizeSmall*'
+check voxel_inject_test 'VoxelInject.SameBits*:VoxelInject.BadTexels*:VoxelInject.LightsAndAMap*'
 exit $failed

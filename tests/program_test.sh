@@ -235,7 +235,7 @@ END
 done
 
 # ---- Scenes and pictures
-render=("$luxel" render --size 16x9 --samples 2)
+render=("$luxel" render --method truth --size 16x9 --samples 2)
 expect 2 '--scene is required' "${render[@]}" -o a.png
 expect 2 '--out is required' "${render[@]}" --scene cornell
 expect 2 'scene cornel is not known; expected cornell, two_rooms, furnace, atrium, atrium:N, or a file' "${render[@]}" --scene cornel -o a.png
@@ -281,10 +281,20 @@ for file in position normal depth albedo roughness emission truth_indirect_t1 tr
   [[ -s box/$file.exr ]] || fail "--buffers wrote no $file.exr"
 done
 expect 0 'emission' "$luxel" gaussian_blur --in box/emission.exr --sigma 0 -o box_emission.npy
-expect 0 'furnace' "$luxel" render --size 16x9 --scene furnace --samples 400 --camera 0.5,1,-0.9,-0.5,0.5,0.9,70 -o furnace.npy
+expect 0 'furnace' "$luxel" render --method truth --size 16x9 --scene furnace --samples 400 --camera 0.5,1,-0.9,-0.5,0.5,0.9,70 -o furnace.npy
 expect 0 'sky' "${render[@]}" --scene nan.obj --camera 0,0,-5,0,0,-9,40 --sky 1,2,3 -o sky.npy
 expect 0 'sun' "${render[@]}" --scene nan.obj --camera 0.3,0.3,1,0.3,0.3,0,1 --sky 0,0,0 --sun 0,0,1,3 --bounces 1 -o sun.npy
 expect 0 'png' "${render[@]}" --scene cornell --exposure -1.5 -o box.png
+cone=("$luxel" render --size 32x24 --resolution 32 --scene cornell)
+expect 2 '--resolution: 7 is out of range' "$luxel" render --scene cornell --resolution 7 -o cone.npy
+expect 2 'count is 7; expected 1, 4, 5' "${cone[@]}" --cones 7 -o cone.npy
+expect 2 "'nothing'" "${cone[@]}" --device nothing -o cone.npy
+expect 0 '^render cone cornell \(50 triangles\) 32x24, all; wrote cone_first\.npy$' "${cone[@]}" --device cpu -o cone_first.npy
+grep -Eq '^  update: voxel_inject .* mip_build ' out.txt || fail "render --method cone prints no update times" "$(cat out.txt)"
+for device in $devices; do
+  expect 0 'render cone' "${cone[@]}" --device "$device" -o "cone_$device.npy"
+  same cone_first.npy "cone_$device.npy"
+done
 python <<'END'
 shape, total = read('box.npy')
 assert shape == (9, 16, 3)

@@ -8,6 +8,7 @@
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
 #include "bench/report/pictures.h"
+#include "bench/report/rendered.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
 #include "tests/cases/gaussian_blur_cases.h"
@@ -56,6 +57,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
     if (first) append(jobs, mip_pictures(session, scenes));
   }
+  if (settings.wants("cone_trace")) append(jobs, rendered_grid(session, missing));
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())
     std::erase_if(jobs, [&](const Job& job) {

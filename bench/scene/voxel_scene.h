@@ -34,7 +34,7 @@ struct VoxelSceneSettings {
   bool textures = true;  // base-colour textures are sampled in the voxels; false: their mean
   int lamp_pieces = 64;  // emitting triangles are lights of about so many pieces where they are no more than these and
                          // no sky shines: lamps. Else cones gather what they send
-  int voxel_cones = 16;  // cones of a voxel that sky and many emitters light
+  int voxel_cones = 6;   // cones of a voxel that sky and many emitters light
 };
 
 /// What a step took: milliseconds of the device (where it has a clock, else of the host).

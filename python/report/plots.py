@@ -115,7 +115,7 @@ def colour_key(row):
 
 def receiver(row):
     """What is asked for: rows with the same compare. Variants of a blur give the same, those of a pyramid do not."""
-    how = () if "sigma" in row["knobs"] else (row["variant"],)
+    how = () if {"sigma", "cones"} & row["knobs"].keys() else (row["variant"],)
     return (
         colour_key(row),
         row["options"].get("format"),

@@ -1,0 +1,212 @@
+#include "bench/report/rendered.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "bench/report/scenes.h"
+#include "bench/scene/voxel_scene.h"
+#include "bench/truth/cone_truth.h"
+#include "bench/truth/path_truth.h"
+
+namespace luxel::report {
+namespace {
+
+using glm::dvec3;
+
+struct Place {
+  std::string name, scene;        // as the report shows it, and as scene_from takes it
+  scene::Camera camera;           // fov 0: the scene's own
+};
+
+struct RenderSetting {
+  Place place;
+  int resolution = 64, cones = 6;
+  bool anisotropic = false;
+  double step = 0.5;
+};
+
+// A scene, what its camera sees, and the truth there; made once in a process.
+struct Stage {
+  scene::Scene scene;
+  scene::GBuffer seen;
+  std::vector<double> t1, t2;  // irradiance after one bounce, 3 a pixel that has a surface
+  std::vector<std::size_t> pixels;
+  double mean = 0;
+};
+
+std::string label(const RenderSetting& s) {
+  return fmt::format("cone_trace {} {} cones {}^3 step {} in {}", s.anisotropic ? "anisotropic" : "isotropic", s.cones, s.resolution,
+                     s.step, s.place.name);
+}
+
+Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
+  static std::map<std::string, std::shared_ptr<const Stage>> stages;
+  if (stages.contains(place.name)) return stages[place.name];
+  auto read = scene::scene_from(place.scene);
+  if (!read) return read.status();
+  auto stage = std::make_shared<Stage>();
+  stage->scene = std::move(read).value();
+  if (place.camera.fov > 0) stage->scene.camera = place.camera;
+  auto rays = scene::Rays::make(stage->scene);
+  if (!rays) return rays.status();
+  stage->seen = scene::gbuffer(rays.value(), stage->scene.camera, quick ? 48 : 96, quick ? 27 : 54);
+  truth::PathSettings settings;
+  settings.samples = quick ? 256 : 1024;
+  settings.bounces = 1;
+  auto traced = path_truth(rays.value(), truth::receivers(stage->seen, stage->scene.camera.eye), settings);
+  if (!traced) return traced.status();
+  for (std::size_t i = 0; i < stage->seen.pixels(); ++i) {
+    if (!stage->seen.surface_at(i)) continue;
+    stage->pixels.push_back(i);
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+      stage->t1.push_back(traced.value().indirect.t1[c]);
+      stage->t2.push_back(traced.value().indirect.t2[c]);
+      stage->mean += (stage->t1.back() + stage->t2.back()) / 2;
+    }
+  }
+  stage->mean /= static_cast<double>(std::max<std::size_t>(stage->t1.size(), 1));
+  stages[place.name] = stage;
+  return stages[place.name];
+}
+
+// mean((a1 - b1)(a2 - b2)) / mean^2, and its standard error.
+struct Relative {
+  double value = 0, error = 0;
+};
+Relative relative(const std::vector<double>& a1, const std::vector<double>& a2, const std::vector<double>& b1,
+                  const std::vector<double>& b2, double mean) {
+  const double n = static_cast<double>(a1.size());
+  double sum = 0, squares = 0;
+  for (std::size_t i = 0; i < a1.size(); ++i) {
+    const double v = (a1[i] - b1[i]) * (a2[i] - b2[i]) / (mean * mean);
+    sum += v;
+    squares += v * v;
+  }
+  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / n / n) / n)};
+}
+
+double total(const std::vector<scene::VoxelStep>& steps) {
+  double ms = 0;
+  for (const scene::VoxelStep& s : steps) ms += s.ms;
+  return ms;
+}
+
+Json phase(std::vector<double> ms) { return to_json(summarise(std::move(ms))); }
+
+Status measure(Session& session, const RenderSetting& s) {
+  const bool quick = session.settings().quick;
+  const auto found = stage_of(s.place, quick);
+  if (!found) return found.status();
+  const Stage& stage = *found.value();
+  scene::VoxelSceneSettings settings;
+  settings.resolution = s.resolution;
+  settings.variant = s.anisotropic ? ConeVariant::anisotropic : ConeVariant::isotropic;
+  ConeTraceParams cones;
+  cones.cones = cone_set(s.cones).value();
+  cones.step_scale = s.step;
+  cones.normal_offset = 2;
+  cones.occlusion = false;
+
+  // The context is the session's; it outlives the scene.
+  const std::shared_ptr<Context> context(std::shared_ptr<Context>(), &session.context());
+  auto built = scene::VoxelScene::build(context, stage.scene, settings);
+  if (!built) return built.status();
+  scene::VoxelScene& voxels = built.value();
+  const dvec3 origin(voxels.grid().origin[0], voxels.grid().origin[1], voxels.grid().origin[2]);
+  std::vector<float> receivers;
+  for (const std::size_t i : stage.pixels) {
+    const dvec3 p = stage.seen.at(stage.seen.position, i) - origin, n = stage.seen.at(stage.seen.normal, i);
+    for (const double v : {p.x, p.y, p.z, 1.0, n.x, n.y, n.z, 0.0}) receivers.push_back(static_cast<float>(v));
+  }
+  std::vector<double> update, shade;
+  scene::ConeLight light;
+  const int runs = session.is_cpu() ? 1 : 3;
+  for (int run = 0; run < runs; ++run) {
+    if (Status lit = voxels.light(); !lit) return lit;
+    update.push_back(total(voxels.light_steps()));
+    auto traced = voxels.trace(cones, receivers, {});
+    if (!traced) return traced.status();
+    light = std::move(traced).value();
+    shade.push_back(total(voxels.shade_steps()));
+  }
+  std::vector<double> x;
+  for (std::size_t i = 0; i < light.indirect.size(); ++i)
+    if (i % 4 < 3) x.push_back(light.indirect[i]);
+  const Relative method = relative(x, x, stage.t1, stage.t2, stage.mean);
+
+  // The same voxels, seen by exhaustive rays.
+  const auto volume = voxels.reflected();
+  if (!volume) return volume.status();
+  const std::vector<double> values(volume.value().begin(), volume.value().end()), points(receivers.begin(), receivers.end());
+  ConeTraceParams exact = cones;
+  exact.extent = {s.resolution, s.resolution, s.resolution};
+  exact.voxel = voxels.grid().voxel;
+  std::vector<double> halves;
+  const std::vector<double> all = truth::irradiance(exact, {exact.extent, values}, points, quick ? 64 : 256, &halves);
+  std::vector<double> v1, v2;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i % 4 < 3) {
+      v1.push_back(halves[i]);
+      v2.push_back(halves[all.size() + i]);
+    }
+  const Relative discretization = relative(v1, v2, stage.t1, stage.t2, stage.mean);
+  const Relative model = relative(x, x, v1, v2, stage.mean);
+
+  session.row("frontier",
+              {{"kernel", "cone_trace"},
+               {"variant", s.anisotropic ? "anisotropic" : "isotropic"},
+               {"device", session.device()},
+               {"scene", s.place.name},
+               {"size", fmt::format("{} receivers", stage.pixels.size())},
+               {"options", {{"format", "f16x4"}}},
+               {"knobs", {{"resolution", s.resolution}, {"cones", s.cones}, {"step", s.step}}},
+               {"time_ms", {{"build", phase({total(voxels.build_steps())})}, {"update", phase(update)}, {"shade", phase(shade)}}},
+               {"error",
+                {{"metric", "irradiance after one bounce: mean((x - t1)(x - t2)) / (mean t)^2"},
+                 {"rounding", nullptr},
+                 {"storage", nullptr},
+                 {"device", nullptr},
+                 {"method", method.value},
+                 {"discretization", discretization.value},
+                 {"model", model.value},
+                 {"stderr", method.error}}},
+               {"bytes", nullptr},
+               {"flops", nullptr},
+               {"memory_bytes", voxels.memory_bytes()},
+               {"group", session.device() + s.place.name + (quick ? " quick" : "") + " irradiance"},
+               {"on_frontier", nullptr}});
+  return {};
+}
+
+}  // namespace
+
+std::vector<Job> rendered_grid(Session& session, std::vector<std::string>& missing) {
+  const bool quick = session.settings().quick;
+  std::vector<Place> places{{"cornell (generated)", "cornell", {{}, {}, 0}}, {"atrium (generated)", "atrium:20000", {{}, {}, 0}}};
+  const std::string sponza = data_folder() + "/crytek_sponza/sponza.glb";
+  if (!std::filesystem::exists(sponza))
+    missing.push_back(sponza + " is missing");
+  else
+    places.push_back({"Sponza", sponza, {{-60, 12, -3}, {60, 25, -2}, 65}});
+  std::vector<Job> jobs;
+  const auto add = [&](const RenderSetting& s) {
+    jobs.push_back({label(s), [&session, s] { return measure(session, s); }});
+  };
+  for (const Place& place : places) {
+    for (const int resolution : quick || session.is_cpu() ? std::vector<int>{64} : std::vector<int>{64, 128, 256})
+      for (const bool anisotropic : {false, true}) add({place, resolution, 6, anisotropic, 0.5});
+    if (session.is_cpu()) continue;
+    const int resolution = quick ? 64 : 128;
+    for (const int cones : {1, 4, 9, 16, 25})
+      if (!quick || cones == 16) add({place, resolution, cones, false, 0.5});
+    for (const double step : {0.25, 1.0})
+      if (!quick) add({place, resolution, 6, false, step});
+  }
+  return jobs;
+}
+
+}  // namespace luxel::report
