@@ -302,8 +302,9 @@ TEST(VoxelInject, LightsThroughAnyVolume) {
               for (double& v : to) v /= reach;
               share = 1 / (reach * reach);
               if (k == 2) {
-                share *= std::max(0.0, -(to[0] * light[32] + to[1] * light[33] + to[2] * light[34]));
-                reach -= offset;
+                const double tilt = -(to[0] * light[32] + to[1] * light[33] + to[2] * light[34]);
+                share *= std::max(0.0, tilt);
+                reach -= offset / std::max(tilt, 1e-30);
               }
             }
             const double facing = inner(n, to);

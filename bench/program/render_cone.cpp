@@ -102,10 +102,9 @@ Result<RenderOutput> render_cone(const RenderInput& input) {
   for (const scene::VoxelStep& s : voxels.build_steps()) out.times.push_back({"build", s.name, s.ms});
   for (const scene::VoxelStep& s : voxels.light_steps()) out.times.push_back({"update", s.name, s.ms});
   for (const scene::VoxelStep& s : voxels.shade_steps()) out.times.push_back({"shade", s.name, s.ms});
-  const VoxelTriangles& t = voxels.triangles();
   out.notes.push_back(fmt::format("{}: {}^3 voxels of {:.4g}, {} occupied, {} triangles skipped, {:.0f} MiB",
                                   context.value()->info().id, input.voxels.resolution, voxels.grid().voxel,
-                                  voxels.occupied(), t.not_finite + t.bad_index,
+                                  voxels.occupied(), voxels.skipped(),
                                   static_cast<double>(voxels.memory_bytes()) / 1048576));
   return out;
 }

@@ -18,8 +18,8 @@ namespace {
 using glm::dvec3;
 
 struct Place {
-  std::string name, scene;        // as the report shows it, and as scene_from takes it
-  scene::Camera camera;           // fov 0: the scene's own
+  std::string name, scene;  // as the report shows it, and as scene_from takes it
+  scene::Camera camera;     // fov 0: the scene's own
 };
 
 struct RenderSetting {
@@ -39,8 +39,8 @@ struct Stage {
 };
 
 std::string label(const RenderSetting& s) {
-  return fmt::format("cone_trace {} {} cones {}^3 step {} in {}", s.anisotropic ? "anisotropic" : "isotropic", s.cones, s.resolution,
-                     s.step, s.place.name);
+  return fmt::format("cone_trace {} {} cones {}^3 step {} in {}", s.anisotropic ? "anisotropic" : "isotropic", s.cones,
+                     s.resolution, s.step, s.place.name);
 }
 
 Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
@@ -141,20 +141,17 @@ Status measure(Session& session, const RenderSetting& s) {
   // The same voxels, seen by exhaustive rays.
   const auto volume = voxels.reflected();
   if (!volume) return volume.status();
-  const std::vector<double> values(volume.value().begin(), volume.value().end()), points(receivers.begin(), receivers.end());
+  const std::vector<double> values(volume.value().begin(), volume.value().end()),
+      points(receivers.begin(), receivers.end());
   ConeTraceParams exact = cones;
   exact.extent = {s.resolution, s.resolution, s.resolution};
   exact.voxel = voxels.grid().voxel;
-  std::vector<double> halves;
-  const std::vector<double> all = truth::irradiance(exact, {exact.extent, values}, points, quick ? 64 : 256, &halves);
-  std::vector<double> v1, v2;
+  const std::vector<double> all = truth::irradiance(exact, {exact.extent, values}, points, quick ? 64 : 256);
+  std::vector<double> v;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (i % 4 < 3) {
-      v1.push_back(halves[i]);
-      v2.push_back(halves[all.size() + i]);
-    }
-  const Relative discretization = relative(v1, v2, stage.t1, stage.t2, stage.mean);
-  const Relative model = relative(x, x, v1, v2, stage.mean);
+    if (i % 4 < 3) v.push_back(all[i]);
+  const Relative discretization = relative(v, v, stage.t1, stage.t2, stage.mean);
+  const Relative model = relative(x, x, v, v, stage.mean);
 
   session.row("frontier",
               {{"kernel", "cone_trace"},
@@ -164,7 +161,8 @@ Status measure(Session& session, const RenderSetting& s) {
                {"size", fmt::format("{} receivers", stage.pixels.size())},
                {"options", {{"format", "f16x4"}}},
                {"knobs", {{"resolution", s.resolution}, {"cones", s.cones}, {"step", s.step}}},
-               {"time_ms", {{"build", phase({total(voxels.build_steps())})}, {"update", phase(update)}, {"shade", phase(shade)}}},
+               {"time_ms",
+                {{"build", phase({total(voxels.build_steps())})}, {"update", phase(update)}, {"shade", phase(shade)}}},
                {"error",
                 {{"metric", "irradiance after one bounce: mean((x - t1)(x - t2)) / (mean t)^2"},
                  {"rounding", nullptr},
@@ -186,7 +184,8 @@ Status measure(Session& session, const RenderSetting& s) {
 
 std::vector<Job> rendered_grid(Session& session, std::vector<std::string>& missing) {
   const bool quick = session.settings().quick;
-  std::vector<Place> places{{"cornell (generated)", "cornell", {{}, {}, 0}}, {"atrium (generated)", "atrium:20000", {{}, {}, 0}}};
+  std::vector<Place> places{{"cornell (generated)", "cornell", {{}, {}, 0}},
+                            {"atrium (generated)", "atrium:20000", {{}, {}, 0}}};
   const std::string sponza = data_folder() + "/crytek_sponza/sponza.glb";
   if (!std::filesystem::exists(sponza))
     missing.push_back(sponza + " is missing");

@@ -15,25 +15,6 @@ using glm::dvec3;
 
 std::array<double, 3> array_of(dvec3 v) { return {v.x, v.y, v.z}; }
 
-// The mean of a texture, and the share of it whose alpha is at least `cutoff`.
-struct TextureMean {
-  dvec3 color{1};
-  double alpha = 1, there = 1;
-};
-TextureMean mean_of(const Texture& texture, double cutoff) {
-  dvec3 color(0);
-  double alpha = 0, there = 0;
-  for (int y = 0; y < texture.height; ++y)
-    for (int x = 0; x < texture.width; ++x) {
-      const glm::dvec4 t = texture.texel(x, y);
-      color += dvec3(t);
-      alpha += t.w;
-      there += t.w >= cutoff;
-    }
-  const double texels = static_cast<double>(texture.width) * texture.height;
-  return {color / texels, alpha / texels, there / texels};
-}
-
 double luminance(dvec3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
 // Quarters of a triangle until the largest has at most `area`.
@@ -61,11 +42,6 @@ std::size_t emitting_triangles(const Scene& scene) {
   return count;
 }
 
-// Whether voxelize samples a material's texture; it takes sRGB.
-bool sampled(const Scene& scene, const Material& m) {
-  return m.texture >= 0 && !scene.uvs.empty() && scene.textures[static_cast<std::size_t>(m.texture)].srgb;
-}
-
 // Of the whole sphere; rows count by their solid angle.
 dvec3 mean_radiance(const Sky& sky) {
   if (sky.image.empty()) return sky.radiance;
@@ -84,34 +60,6 @@ dvec3 mean_radiance(const Sky& sky) {
 }
 
 }  // namespace
-
-VoxelGrid cube_around(const Scene& scene, int resolution) {
-  const Bounds box = bounds(scene);
-  const dvec3 size = box.high - box.low;
-  const double side = std::max({size.x, size.y, size.z, 1e-30}) * 1.02;
-  VoxelGrid grid;
-  grid.voxel = side / resolution;
-  grid.origin = array_of((box.low + box.high) / 2.0 - side / 2);
-  grid.width = grid.height = grid.depth = resolution;
-  return grid;
-}
-
-std::vector<float> voxel_materials(const Scene& scene, bool textures) {
-  std::vector<float> words;
-  for (const Material& m : scene.materials) {
-    TextureMean mean;
-    if (m.texture >= 0 && !(textures && sampled(scene, m)))
-      mean = mean_of(scene.textures[static_cast<std::size_t>(m.texture)], m.alpha_cutoff / std::max(m.alpha, 1e-9));
-    const double opacity = m.alpha_mode == AlphaMode::opaque  ? 1
-                           : m.alpha_mode == AlphaMode::blend ? m.alpha * mean.alpha
-                           : m.texture >= 0                   ? mean.there
-                                                              : static_cast<double>(m.alpha >= m.alpha_cutoff);
-    const dvec3 color = glm::clamp(m.base_color * mean.color * (1 - m.metallic), 0.0, 1.0);
-    for (const double v : {color.x, color.y, color.z, opacity, m.emission.x, m.emission.y, m.emission.z, 0.0})
-      words.push_back(static_cast<float>(v));
-  }
-  return words;
-}
 
 std::vector<VoxelLight> voxel_lights_of(const Scene& scene, int pieces) {
   std::vector<VoxelLight> lights;
@@ -133,9 +81,10 @@ std::vector<VoxelLight> voxel_lights_of(const Scene& scene, int pieces) {
 }
 
 VoxelScene::VoxelScene(std::shared_ptr<Context> context, const Scene& scene, const VoxelSceneSettings& settings)
-    : context_(std::move(context)), scene_(scene), settings_(settings), grid_(cube_around(scene, settings.resolution)) {
-  emission_ = emitting_triangles(scene) > 0;
-}
+    : context_(std::move(context)),
+      scene_(scene),
+      settings_(settings),
+      grid_(grid_around(scene, settings.resolution)) {}
 
 Result<VoxelScene> VoxelScene::build(std::shared_ptr<Context> context, const Scene& scene,
                                      const VoxelSceneSettings& settings) {
@@ -171,68 +120,28 @@ Status VoxelScene::run(const Plan& plan, const std::vector<Named>& resources, co
 }
 
 Status VoxelScene::voxelize() {
-  VoxelMesh mesh;
-  mesh.positions = reinterpret_cast<const double*>(scene_.positions.data());
-  mesh.vertices = scene_.positions.size();
-  mesh.indices = reinterpret_cast<const std::uint32_t*>(scene_.indices.data());
-  mesh.triangles = scene_.indices.size();
-  mesh.materials = scene_.triangle_materials.data();
-  std::vector<VoxelTexture> textures;
-  bool textured = false;
-  for (const Material& m : scene_.materials) {
-    VoxelTexture texture;
-    if (settings_.textures && sampled(scene_, m)) {
-      const Texture& t = scene_.textures[static_cast<std::size_t>(m.texture)];
-      texture.rgba = t.rgba.data();
-      texture.width = t.width;
-      texture.height = t.height;
-      if (m.alpha_mode == AlphaMode::mask)
-        texture.alpha_cutoff = std::min(1.0, m.alpha_cutoff / std::max(m.alpha, 1e-9));
-      textured = true;
-    }
-    textures.push_back(texture);
-  }
-  VoxelTextures packed;
-  if (textured) {
-    mesh.uvs = reinterpret_cast<const double*>(scene_.uvs.data());
-    auto made = voxel_textures(textures.data(), textures.size());
-    if (!made) return made.status();
-    packed = std::move(made).value();
-  }
-  auto rebased = voxel_triangles(mesh, grid_);
-  if (!rebased) return rebased.status();
-  triangles_ = std::move(rebased).value();
-
-  VoxelizeParams p = voxelize_params(grid_, triangles_);
+  auto made = scene_voxels(scene_, grid_, true);
+  if (!made) return made.status();
+  const SceneVoxels& voxels = made.value();
+  skipped_ = voxels.triangles.not_finite;
+  VoxelizeParams p = voxels.params;
   p.mode = settings_.mode;
   p.format = settings_.format;
   p.normal = true;
-  p.emission = emission_;
-  p.materials = static_cast<int>(scene_.materials.size());
-  const std::vector<float> materials = voxel_materials(scene_, textured);
-  double brightest = 1e-3;
-  for (std::size_t i = 0; i < scene_.materials.size(); ++i) {
-    p.opacity = p.opacity || materials[8 * i + 3] < 1;
-    for (int c = 0; c < 3; ++c)
-      brightest = std::max<double>(brightest, materials[8 * i + 4 + static_cast<std::size_t>(c)]);
-  }
-  for (const Material& m : scene_.materials)
-    p.opacity = p.opacity || (m.alpha_mode == AlphaMode::blend && m.texture >= 0);
-  p.emission_max = brightest;
-  p.texels = static_cast<int>(packed.texels.size());
+  emission_ = p.emission;
   auto plan = luxel::plan(p, context_->profile());
   if (!plan) return plan.status();
 
   std::vector<Named> named;
   for (const Resource& r : plan.value().resources) {
-    const void* data = r.name == "triangles"       ? static_cast<const void*>(triangles_.records.data())
-                       : r.name == "materials"     ? static_cast<const void*>(materials.data())
-                       : r.name == "uvs"           ? static_cast<const void*>(triangles_.uvs.data())
-                       : r.name == "texture_table" ? static_cast<const void*>(packed.table.data())
-                       : r.name == "texels"        ? static_cast<const void*>(packed.texels.data())
+    const void* data = r.name == "triangles"       ? static_cast<const void*>(voxels.triangles.records.data())
+                       : r.name == "materials"     ? static_cast<const void*>(voxels.materials.data())
+                       : r.name == "uvs"           ? static_cast<const void*>(voxels.triangles.uvs.data())
+                       : r.name == "texture_table" ? static_cast<const void*>(voxels.textures.table.data())
+                       : r.name == "texels"        ? static_cast<const void*>(voxels.textures.texels.data())
                                                    : nullptr;
-    const std::size_t count = r.bytes / bytes_per_pixel(r.format);
-    auto memory = make(r.format, count, r.name == "triangles" && triangles_.count == 0 ? nullptr : data);
+    const bool nothing = voxels.triangles.count == 0 && (r.name == "triangles" || r.name == "uvs");
+    auto memory = make(r.format, r.bytes / bytes_per_pixel(r.format), nothing ? nullptr : data);
     if (!memory) return memory.status();
     named.push_back({r.name, memory.value()});
     if (r.name == "colour") colour_ = memory.value();

@@ -10,17 +10,9 @@
 #include <luxel/voxel_inject.h>
 #include <luxel/voxelize.h>
 
-#include "bench/scene/scene.h"
+#include "bench/scene/voxels.h"
 
 namespace luxel::scene {
-
-/// The cube about all finite vertices, centred, padded by 1 % of its side at each end, N voxels along each side.
-VoxelGrid cube_around(const Scene& scene, int resolution);
-
-/// What voxelize takes of a scene's materials: base colour times (1 - metallic), opacity (blend: alpha), emission. Where
-/// voxelize does not sample their textures itself (`textures`, sRGB), times the texture's mean; mask: the share of it that
-/// is there.
-std::vector<float> voxel_materials(const Scene& scene, bool textures);
 
 /// A list of lights for voxel_inject: the sun, and each emitting triangle cut into pieces so that there are about `pieces`
 /// in all. Both of a triangle's sides emit.
@@ -70,7 +62,8 @@ class VoxelScene {
                           const std::vector<float>& views);
 
   const VoxelGrid& grid() const { return grid_; }
-  const VoxelTriangles& triangles() const { return triangles_; }
+  /// Triangles skipped for a vertex that is no finite number.
+  std::size_t skipped() const { return skipped_; }
   std::uint32_t occupied() const { return occupied_; }
   std::size_t memory_bytes() const;
   const std::vector<VoxelStep>& build_steps() const { return build_steps_; }
@@ -103,7 +96,7 @@ class VoxelScene {
   const Scene& scene_;
   VoxelSceneSettings settings_;
   VoxelGrid grid_;
-  VoxelTriangles triangles_;
+  std::size_t skipped_ = 0;
   std::uint32_t occupied_ = 0;
   bool emission_ = false;
   int bricks_ = 0;

@@ -38,7 +38,7 @@ struct VoxelInjectParams {
   bool emission = false;          // the volume `emission` is there
   bool clear = true;              // the whole volume is written; false: only touched bricks (a light moved, voxels did not)
   double voxel = 1;               // side of a voxel, scene units, > 0
-  double normal_offset = 2.6;     // shadow rays start this many voxels above a voxel's centre, 0..64. From 3 sqrt(3) / 2 on a
+  double normal_offset = 2.6;     // shadow rays start this many voxels above a voxel's centre (and end as many above a patch), 0..64. From 3 sqrt(3) / 2 on a
                                   // plane never shadows itself
   double scale = 1;               // radiance is multiplied by this before it is stored, > 0 (unorm8 holds 0..1)
   bool count = false;             // fills `outcomes`

@@ -80,8 +80,10 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
         to = to / reach;
         share = 1.0f / ((squared + power.w) * params.voxel * params.voxel);
         if (place.w == float(LIGHT_PATCH)) {
-            share = share * max(0.0f, -inner(to, vec3(front.x, front.y, front.z)));
-            reach = reach - params.normal_offset;
+            const float tilt = -inner(to, vec3(front.x, front.y, front.z));
+            if (!(tilt > 0.0f)) return vec3(0.0f);
+            share = share * tilt;
+            reach = reach - params.normal_offset / tilt;  // the patch is a surface too: the ray ends above it
         }
     }
     const float facing = inner(n, to);
