@@ -197,7 +197,7 @@ void on_threads(std::size_t n, const PathSettings& settings, const Work& work) {
         for (std::size_t i = first; i < std::min(n, first + chunk); ++i) work(i);
         if (!settings.progress) continue;
         const std::lock_guard lock(telling);
-        settings.progress(static_cast<double>(first) / static_cast<double>(n));
+        settings.progress(static_cast<double>(std::min(n, next.load())) / static_cast<double>(n));
       }
     });
 }
