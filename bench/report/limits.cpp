@@ -9,7 +9,7 @@
 #include "host/module.h"
 
 namespace luxel::built_in {
-extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic;
+extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic, limit_sample;
 }
 
 namespace luxel::report {
@@ -147,6 +147,24 @@ Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, c
                   {static_cast<double>(lanes), static_cast<double>(form.block)},
                   static_cast<std::uint32_t>((width + pixels_each - 1) / pixels_each),
                   static_cast<std::uint32_t>(height), profile.pixels.workgroup);
+}
+
+Result<Plan> sample_plan(int width, int height, int side, int looks, std::array<double, 3> step, const SampleForm& form,
+                         const Profile& profile) {
+  const std::string which = form.sampled ? "sampled" : (form.texels ? "texels_" : "") + std::string(name(form.format));
+  const Module* module = module_in(built_in::limit_sample, which);
+  if (!module) return Status(Code::invalid_argument, "limit_sample has no form " + which);
+  Resource volume = buffer("volume", form.format, static_cast<std::size_t>(side) * side * side, false);
+  if (form.sampled) {
+    volume.kind = ResourceKind::sampled_image;
+    volume.extent = {side, side, side};
+    volume.bytes = 0;
+  }
+  return one_pass("limit_sample", module,
+                  {volume, buffer("dst", Format::f32x4, static_cast<std::size_t>(width) * height, true)},
+                  {static_cast<double>(width), static_cast<double>(height), static_cast<double>(side),
+                   static_cast<double>(looks), step[0], step[1], step[2]},
+                  {}, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), profile.pixels.workgroup);
 }
 
 std::vector<Job> limit_jobs(Session& session) {

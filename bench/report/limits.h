@@ -1,5 +1,7 @@
 // What the device's driver can do at most, through kernels of the same dialect: copy, triad, arithmetic.
 #pragma once
+#include <array>
+
 #include "bench/report/session.h"
 
 namespace luxel::report {
@@ -23,6 +25,16 @@ std::vector<CopyForm> copy_forms(Session& session);
 
 /// Plan of a copy. Resources src and dst. Errors: invalid_argument.
 Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, const Profile& profile);
+
+/// Plan of `looks` trilinear look-ups by each of width x height invocations along lines through a volume of side^3:
+/// resources volume (a buffer, or with `sampled` a 3-D image) and dst. `step`: voxels from look-up to look-up.
+struct SampleForm {
+  Format format = Format::f32x4;
+  bool sampled = false;
+  bool texels = false;
+};
+Result<Plan> sample_plan(int width, int height, int side, int looks, std::array<double, 3> step, const SampleForm& form,
+                         const Profile& profile);
 
 /// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
 Json machine_limits(bool quick);

@@ -110,7 +110,12 @@ FN vec2 within(vec2 range, float p, float d, float n) {
 // Positions at which floats still tell quarter voxels apart; from farther on, nothing of the volume is seen.
 #define FARTHEST 4194304.0f
 
-// Radiance (with what the environment adds) and occlusion seen along d from p, in finest voxels.
+// What passing `step` of a look-up adds, premultiplied: its opacity stands for 1 / k of a finest voxel's width.
+FN vec4 crossed(vec4 v, float k_step) { return extinction_part(v.w, k_step) * v; }
+FN bool is_empty(vec4 v) { return SKIP_EMPTY != 0 && v.x + v.y + v.z + v.w == 0.0f; }
+
+// Radiance (with what the environment adds) and occlusion seen along d from p, in finest voxels. `width`: of the voxels
+// that are looked up; those of a level are `size` = 2^level wide.
 FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     const ivec3 n = finest(ctx);
     vec2 range = within(vec2(params.start, params.reach), p.x, d.x, float(n.x));
@@ -120,18 +125,6 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     const float span = near ? range.y - range.x : -1.0f;
     const vec3 entry = vec3(p.x + range.x * d.x, p.y + range.x * d.y, p.z + range.x * d.z);
 
-    // Two levels: the finer one, `level` (its texels 2^level = size wide), and the next.
-    int level = 0;
-    float size = 1.0f;
-    ivec3 this_e = n;
-    ivec3 next_e = coarser(n);
-    int this_at = 0;
-    int next_at = 0;
-    vec3 this_scale = vec3(1.0f, 1.0f, 1.0f);
-    vec3 next_scale = level_scale(ctx, next_e);
-    float this_k = 1.0f;
-    float next_k = per_reference(d, next_scale);
-
     vec4 sum = vec4(0.0f);  // C, A
     float occlusion = 0.0f;
     float t = 0.0f;         // behind the entry
@@ -139,46 +132,70 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
 #if COUNT
     int look_ups = 0;
 #endif
-    while (t < span && 1.0f - sum.w > params.stop && steps < params.step_cap) {
-        const float step = min(params.step_scale * max(1.0f, spread * (range.x + t)), span - t);
-        const float middle = t + 0.5f * step;
-        const float diameter = spread * (range.x + middle);
-        while (diameter >= 2.0f * size && level + 1 < params.levels) {
-            this_e = next_e;
-            this_at = next_at;
-            this_scale = next_scale;
-            this_k = next_k;
-            next_at = place_behind(this_at, this_e);
-            next_e = coarser(this_e);
+    float step;
+    float width;
+#define NEXT_STEP \
+    step = min(params.step_scale * max(1.0f, spread * (range.x + t)), span - t); \
+    width = spread * (range.x + t + 0.5f * step);
+#define GOES_ON (t < span && 1.0f - sum.w > params.stop && steps < params.step_cap)
+#define SAMPLE_PLACE \
+    const float middle = t + 0.5f * step; \
+    const vec3 at = vec3(entry.x + middle * d.x, entry.y + middle * d.y, entry.z + middle * d.z);
+#define ACCUMULATE(seen) { \
+        const vec4 added = (1.0f - sum.w) * (seen); \
+        sum = sum + added; \
+        if (OCCLUSION != 0) occlusion += added.w / (1.0f + params.gamma * (range.x + middle)); \
+        t += step; \
+        steps += 1; \
+        NEXT_STEP \
+    }
+    NEXT_STEP
+
+    // The finest level alone; between it and the next; between two coarse levels.
+    while (GOES_ON && (width <= 1.0f || params.levels == 1)) {
+        SAMPLE_PLACE
+        LOOKED_UP(1)
+        ACCUMULATE(crossed(fine_at(ctx, at), step))
+    }
+    ivec3 next_e = coarser(n);
+    int next_at = 0;
+    vec3 next_scale = level_scale(ctx, next_e);
+    float next_k = per_reference(d, next_scale);
+    while (GOES_ON && width < 2.0f) {
+        SAMPLE_PLACE
+        LOOKED_UP(VOLUMES)
+        vec4 v = coarse_at(ctx, at * next_scale, d, next_e, next_at);
+        if (!is_empty(v)) {
+            LOOKED_UP(1)
+            v = blend(crossed(fine_at(ctx, at), step), crossed(v, step * next_k), log2_part(width));
+        }
+        ACCUMULATE(v)
+    }
+    float size = 2.0f;
+    for (int level = 1; level < params.levels && GOES_ON; ++level) {
+        const bool top = level + 1 == params.levels;
+        const ivec3 e = next_e;
+        const int first = next_at;
+        const vec3 scale = next_scale;
+        const float k = next_k;
+        if (!top) {
+            next_at = place_behind(first, e);
+            next_e = coarser(e);
             next_scale = level_scale(ctx, next_e);
             next_k = per_reference(d, next_scale);
-            level += 1;
-            size = 2.0f * size;
         }
-        const vec3 at = vec3(entry.x + middle * d.x, entry.y + middle * d.y, entry.z + middle * d.z);
-        const bool between = diameter > size && level + 1 < params.levels;
-        vec4 far = vec4(0.0f);
-        if (between) {
-            far = coarse_at(ctx, at * next_scale, d, next_e, next_at);
+        while (GOES_ON && (width < 2.0f * size || top)) {
+            SAMPLE_PLACE
             LOOKED_UP(VOLUMES)
-        }
-        vec4 v = vec4(0.0f);
-        if (SKIP_EMPTY == 0 || !between || far.x + far.y + far.z + far.w != 0.0f) {
-            if (level == 0) {
-                v = fine_at(ctx, at);
-                LOOKED_UP(1)
-            } else {
-                v = coarse_at(ctx, at * this_scale, d, this_e, this_at);
+            vec4 v = coarse_at(ctx, at * next_scale, d, next_e, next_at);
+            if (!is_empty(v)) {
                 LOOKED_UP(VOLUMES)
+                const float f = top ? 0.0f : log2_part(width / size);
+                v = blend(crossed(coarse_at(ctx, at * scale, d, e, first), step * k), crossed(v, step * next_k), f);
             }
-            v = extinction_part(v.w, step * this_k) * v;
-            if (between) v = blend(v, extinction_part(far.w, step * next_k) * far, log2_part(diameter / size));
-            v = (1.0f - sum.w) * v;
-            sum = sum + v;
-            if (OCCLUSION != 0) occlusion += v.w / (1.0f + params.gamma * (range.x + middle));
+            ACCUMULATE(v)
         }
-        t += step;
-        steps += 1;
+        size = 2.0f * size;
     }
 
 #if COUNT

@@ -230,7 +230,7 @@ void add_cone_value_cases(std::vector<Case>& cases) {
   cases.push_back(wall_case(ConeVariant::isotropic, false, 0.5, "at most half where the level changes within the wall"));
   cases.push_back(wall_case(ConeVariant::anisotropic, true, 0.25,
                             "along the axis at most a quarter between voxel centres (mean leak over 21 places)"));
-  cases.push_back(wall_case(ConeVariant::anisotropic, false, 0.3, "at most .3 where the level changes within the wall"));
+  cases.push_back(wall_case(ConeVariant::anisotropic, false, 0.35, "at most .35 where the level changes within the wall"));
 }
 
 }  // namespace luxel::cases
