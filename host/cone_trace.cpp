@@ -276,7 +276,7 @@ class ConeTracing {
                    {"pattern_y", p_.pattern_y}},
                   {{"ANISOTROPIC", p_.variant == ConeVariant::anisotropic},
                    {"RADIANCE", radiance},
-                   {"OCCLUSION", occlusion},
+                   {"OCCLUSION", !occlusion ? 0 : p_.gamma > 0 ? 2 : 1},
                    {"SKIP_EMPTY", p_.skip_empty}},
                   slots);
     const double receivers = static_cast<double>(p_.width) * p_.height;

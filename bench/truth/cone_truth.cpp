@@ -140,17 +140,20 @@ std::vector<double> irradiance(const ConeTraceParams& p, const Voxels& voxels, s
     if (!place.good) return;
     const auto f = frame(place.normal);
     std::array<std::array<double, 4>, 2> sums{};
-    for (int k = 0; k < rays; ++k) {
-      const double u = (k + 0.5) / rays, angle = 2 * pi * radical_inverse(static_cast<std::uint32_t>(k));
-      const Vec d = tilted(f, place.normal, std::sqrt(1 - u), angle);
-      const auto v = with_environment(p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel));
-      for (int c = 0; c < 4; ++c) sums[k % 2][c] += v[c];
-    }
+    // Each half is a Hammersley set of its own, the second moved along both axes.
+    const int each = (rays + 1) / 2;
+    for (std::size_t h = 0; h < 2; ++h)
+      for (int k = 0; k < each; ++k) {
+        const double u = (k + (h == 0 ? 0.25 : 0.75)) / each;
+        const double turn = radical_inverse(static_cast<std::uint32_t>(k)) + (h == 0 ? 0 : 0.6180339887498949);
+        const Vec d = tilted(f, place.normal, std::sqrt(1 - u), 2 * pi * turn);
+        const auto v = with_environment(p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel));
+        for (int c = 0; c < 4; ++c) sums[h][c] += v[c];
+      }
     for (int c = 0; c < 4; ++c) {
       const auto out = [&](double mean) { return c < 3 ? pi * mean : 1 - mean; };
-      result[i * 4 + c] = out((sums[0][c] + sums[1][c]) / rays);
-      for (std::size_t h = 0; halves && h < 2; ++h)
-        (*halves)[(h * count + i) * 4 + c] = out(sums[h][c] / ((rays + (h == 0 ? 1 : 0)) / 2));
+      result[i * 4 + c] = out((sums[0][c] + sums[1][c]) / (2 * each));
+      for (std::size_t h = 0; halves && h < 2; ++h) (*halves)[(h * count + i) * 4 + c] = out(sums[h][c] / each);
     }
   });
   return result;

@@ -26,7 +26,7 @@ Seen see(const Voxels& voxels, const std::array<double, 3>& p, const std::array<
 
 /// Irradiance and visibility of each receiver ([n][8], as luxel::ConeTraceParams has them), by `rays` directions
 /// distributed as the cosine, with the params' own offset, start, distance, gamma and environment; [n][4].
-/// `halves` (optional): the same by the even and by the odd directions alone, [2][n][4].
+/// `halves` (optional): the same by two sets of half as many directions, [2][n][4], of which the result is the mean.
 std::vector<double> irradiance(const ConeTraceParams& params, const Voxels& voxels, std::span<const double> receivers,
                                int rays, std::vector<double>* halves = nullptr);
 

@@ -38,7 +38,8 @@ FN int place_behind(int at, ivec3 e) { return at + e.x; }
 FN float in_box(float p, int n) { return clamp(p, 0.5f, float(n) - 0.5f); }
 FN vec4 fine_at(CTX, vec3 p) {
     const ivec3 e = finest(ctx);
-    return sample3d(fine, vec3(p.x / float(e.x), p.y / float(e.y), p.z / float(e.z)), 0.0f);
+    return sample3d(fine, vec3(in_box(p.x, e.x) / float(e.x), in_box(p.y, e.y) / float(e.y), in_box(p.z, e.z) / float(e.z)),
+                    0.0f);
 }
 FN vec4 directional(CTX, vec3 p, ivec3 e, int at, int direction) {
     const float x = float(at) + in_box(p.x, e.x);
@@ -144,7 +145,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
 #define ACCUMULATE(seen) { \
         const vec4 added = (1.0f - sum.w) * (seen); \
         sum = sum + added; \
-        if (OCCLUSION != 0) occlusion += added.w / (1.0f + params.gamma * (range.x + middle)); \
+        if (OCCLUSION > 1) occlusion += added.w / (1.0f + params.gamma * (range.x + middle)); \
         t += step; \
         steps += 1; \
         NEXT_STEP \
@@ -172,6 +173,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
         ACCUMULATE(v)
     }
     float size = 2.0f;
+    float per_size = 0.5f;
     for (int level = 1; level < params.levels && GOES_ON; ++level) {
         const bool top = level + 1 == params.levels;
         const ivec3 e = next_e;
@@ -190,12 +192,13 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
             vec4 v = coarse_at(ctx, at * next_scale, d, next_e, next_at);
             if (!is_empty(v)) {
                 LOOKED_UP(VOLUMES)
-                const float f = top ? 0.0f : log2_part(width / size);
+                const float f = top ? 0.0f : log2_part(width * per_size);
                 v = blend(crossed(coarse_at(ctx, at * scale, d, e, first), step * k), crossed(v, step * next_k), f);
             }
             ACCUMULATE(v)
         }
         size = 2.0f * size;
+        per_size = 0.5f * per_size;
     }
 
 #if COUNT
@@ -206,7 +209,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
             : range.y < params.reach ? LEFT : REACHED)
     const float through = 1.0f - sum.w;
     const vec4 seen = vec4(sum.x + through * params.environment_r, sum.y + through * params.environment_g,
-                           sum.z + through * params.environment_b, occlusion);
+                           sum.z + through * params.environment_b, OCCLUSION > 1 ? occlusion : sum.w);
     if (finite(seen)) return seen;
     COUNTED(NOT_FINITE)
     return vec4(0.0f);

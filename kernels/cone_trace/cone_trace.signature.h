@@ -55,7 +55,7 @@
 #define CONSTANTS(_) \
     _(0, int, ANISOTROPIC, 0)  /* 1: coarse levels are six directional volumes */ \
     _(1, int, RADIANCE, 1)     /* 0: only occlusion is wanted */ \
-    _(2, int, OCCLUSION, 1)    /* 0: only radiance is wanted */ \
+    _(2, int, OCCLUSION, 1)    /* 0: only radiance is wanted; 1: gamma is 0; 2: it is not */ \
     _(3, int, SKIP_EMPTY, 0)   /* 1: where the coarser of two levels is empty, the finer is not read */
 #if COUNT
 #define COUNTERS(_) _(UPDATE, 6, uint, counters)
