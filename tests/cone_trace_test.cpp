@@ -140,6 +140,32 @@ TEST(ConeTrace, EveryDeviceGivesTheSameBits) {
   }
 }
 
+// Few receivers, every kind of module: what Oclgrind runs.
+TEST(ConeTraceSmall, EveryDeviceGivesTheSameBits) {
+  for (const Format f : {Format::f32x4, Format::f16x4, Format::unorm8x4})
+    for (const ConeVariant v : {ConeVariant::isotropic, ConeVariant::anisotropic}) {
+      ConeTraceParams p = cone_params(4, v, f);
+      p.extent = {4, 5, 3};
+      p.width = 3;
+      p.height = 2;
+      p.specular = p.count = true;
+      p.gamma = 1;
+      p.environment = {1, 1, 1};
+      const Values receivers = cone_receivers(p, 6, 2);
+      const Values views(24, 0.5);
+      const Values fog = quantise(Values(240, 0.3), f);
+      const auto cpu = trace(test_context("cpu"), p, fog, receivers, views);
+      ASSERT_TRUE(cpu) << cpu.status().message();
+      for (const std::string& device : test_devices()) {
+        const auto r = trace(test_context(device), p, fog, receivers, views);
+        ASSERT_TRUE(r) << r.status().message();
+        EXPECT_EQ(count_different(r.value().irradiance, cpu.value().irradiance), 0) << device;
+        EXPECT_EQ(count_different(r.value().specular, cpu.value().specular), 0) << device;
+        EXPECT_EQ(r.value().counters, cpu.value().counters) << device;
+      }
+    }
+}
+
 TEST(ConeTrace, FloatIsNearDouble) {
   for (const ConeTraceParams& p : variants()) {
     if (p.format != Format::f32x4) continue;

@@ -26,4 +26,5 @@ check gaussian_blur_test 'GaussianBlurSmall*'
 check mip_build_test 'MipBuild/Formula*:MipBuild.ThreeLevels*'
 check voxelize_test 'VoxelizeSmall*'
 check voxel_inject_test 'VoxelInject.SameBits*:VoxelInject.BadTexels*:VoxelInject.LightsAndAMap*'
+check cone_trace_test 'ConeTraceSmall*'
 exit $failed

@@ -79,7 +79,7 @@ END
 # ---- Help, lists, and words that nobody knows
 expect 0 'gaussian_blur' "$luxel" --help
 expect 0 '^luxel [0-9]+\.[0-9]+\.[0-9]+$' "$luxel" --version
-for command in devices list bench report gaussian_blur mip_build; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
+for command in devices list bench report gaussian_blur mip_build cone_trace; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
 expect 0 'sigma.*0\.\.10000' "$luxel" gaussian_blur --help
 expect 0 'radius.*0\.\.4095.*default ceil\(3 sigma\)' "$luxel" gaussian_blur --help
 expect 0 'clamp\|mirror\|wrap\|zero; default clamp' "$luxel" gaussian_blur --help
@@ -339,6 +339,33 @@ rows = [struct.unpack('<4I', b[len(b) - 144 + 16 * i:][:16]) for i in range(9)]
 assert rows == sorted(rows) and [r[0] + 4 * r[1] for r in sorted(rows, key=lambda r: (r[1], r[0]))] == touched, rows
 assert all(r[2] == 0 and r[3] == 0 for r in rows), rows
 END
+
+# ---- Cones: fog of opacity 1/2 and radiance 1 before light 1 is 1 everywhere; a receiver without a normal is 0.
+python <<'END'
+write('fog.npy', (8, 8, 8, 4), [0.5] * 2048)
+write('points.npy', (3, 8), [1.5, 1.5, 1.5, 0.2, 0, 1, 0, 0] + [1.5, 1.5, 1.5, 0.2, 0, 0, 0, 0] + [90, 1.5, 1.5, 0.2, 1, 0, 0, 0])
+write('eyes.npy', (3, 4), [0, 1, 0, 0] * 3)
+write('flat_points.npy', (3, 7), [0] * 21)
+END
+cones=("$luxel" cone_trace --volume fog.npy --receivers points.npy --origin 1,1,1 --voxel 0.125)
+expect 2 'flat_points\.npy: has shape \[3\]\[7\]; expected \[n\]\[8\]' "${cones[@]}" --receivers flat_points.npy -o a.npy
+expect 2 'ramp\.npy: has shape \[4\]\[6\]; expected \[z\]\[y\]\[x\]\[4\]' "$luxel" cone_trace --volume ramp.npy --receivers points.npy -o a.npy
+expect 2 'cone_set aperture is .*; expected an aperture at which 6 cones' "${cones[@]}" --aperture 140 -o a.npy
+expect 2 '--cones: 7 is not known; expected 1, 4, 5, 6, 8, 9, 16, 25, classic' "${cones[@]}" --cones 7 -o a.npy
+expect 2 '--specular requires --views' "${cones[@]}" --specular s.npy -o a.npy
+for device in $devices cpu:double; do
+  for variant in isotropic anisotropic; do
+    expect 0 "cone_trace $variant f32x4 8x8x8, 4 levels, 6 cones, 3 receivers.*2 receivers without a normal" "${cones[@]}" --device "$device" --variant $variant --environment 1,1,1 --views eyes.npy --specular "specular_$device.npy" -o "cones_$device.npy"
+    python "$device" <<'END'
+d = sys.argv[1]
+shape, v = read('cones_%s.npy' % d)
+assert shape == (3, 4), shape
+assert all(abs(x - math.pi) < 1e-5 for x in v[0:3] + v[8:11]) and v[4:8] == (0, 0, 0, 0), v
+assert 0 < v[3] < 0.2 and v[11] == 1, v
+assert all(abs(x - 1) < 1e-6 for x in read('specular_%s.npy' % d)[1][0:3])
+END
+  done
+done
 
 # ---- Real files
 if [[ -d $data/photos ]]; then

@@ -19,7 +19,7 @@ namespace {
 struct Arguments {
   std::string volume, receivers, out, views, specular, device, variant, format, cones;
   std::vector<double> origin, environment;
-  double voxel = 1, aperture = 0, footprint = 0, step_scale = 0, normal_offset = 0, start = 0, max_distance = 0, gamma = 0, error = 0;
+  double voxel = 1, aperture = 0, footprint = 0.25, step_scale = 1, normal_offset = 1, start = 0, max_distance = 0, gamma = 0, error = 0;
   int levels = 0, pattern_x = 1, pattern_y = 1;
 };
 

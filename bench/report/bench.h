@@ -32,6 +32,9 @@ std::vector<BenchSetting> mip_build_settings(const Profile& profile);
 /// Main settings of voxelize: the bunny of LUXEL_DATA (without it a ball of as many triangles) at 64^3 to 256^3.
 std::vector<BenchSetting> voxelize_settings(const Profile& profile);
 
+/// Main settings of cone_trace: 256 x 64 receivers in 64^3, random voxels.
+std::vector<BenchSetting> cone_trace_settings(const Profile& profile);
+
 /// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
                  const std::vector<std::pair<int, int>>& sizes);

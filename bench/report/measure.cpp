@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "bench/report/child.h"
+#include "bench/report/cones.h"
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
@@ -11,6 +12,7 @@
 #include "bench/report/rendered.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
+#include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/mip_build_cases.h"
 
@@ -57,7 +59,14 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
     if (first) append(jobs, mip_pictures(session, scenes));
   }
-  if (settings.wants("cone_trace")) append(jobs, rendered_grid(session, missing));
+  if (settings.wants("cone_trace")) {
+    append(jobs, cone_grid(session));
+    append(jobs, cone_left_out(session));
+    append(jobs, cone_reproduction(session));
+    append(jobs, cone_peers(session));
+    append(jobs, stability_jobs(session, cases::cone_trace_cases()));
+    append(jobs, rendered_grid(session, missing));
+  }
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())
     std::erase_if(jobs, [&](const Job& job) {

@@ -10,5 +10,6 @@ std::vector<Case> cone_trace_cases();
 void add_cone_furnace_cases(std::vector<Case>& cases);
 void add_cone_value_cases(std::vector<Case>& cases);
 void add_cone_place_cases(std::vector<Case>& cases);
+void add_cone_scene_cases(std::vector<Case>& cases);
 
 }  // namespace luxel::cases

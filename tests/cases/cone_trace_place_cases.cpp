@@ -263,6 +263,7 @@ std::vector<Case> cone_trace_cases() {
   add_cone_furnace_cases(cases);
   add_cone_value_cases(cases);
   add_cone_place_cases(cases);
+  add_cone_scene_cases(cases);
   for (Case& c : cases) c.kernel = "cone_trace";
   return cases;
 }
