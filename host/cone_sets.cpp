@@ -260,21 +260,22 @@ HalfSpaceError cone_set_half_spaces(const std::vector<Cone>& cones, int samples)
 }
 
 // GGX (Walter et al. 2007), alpha = roughness^2: with tan^2 = alpha^2 u / (1 - u), u uniform in 0..1, half-vectors are
-// distributed by D cos; the mirrored direction is at twice the angle, and counts by its masking G1. The mean cosine of a
-// cap is (1 + cos h) / 2.
+// distributed by D cos; the mirrored direction is at twice the angle, and counts by its masking G1. The lobe's median
+// cosine m is where half of that is passed; half of a cap's solid angle lies within (1 + cos h) / 2.
 double specular_aperture(double roughness) {
   const double r = std::clamp(roughness, 0.0, 1.0), alpha2 = r * r * r * r;
-  constexpr int pieces = 4096;
-  double cosine = 0, weight = 0;
+  constexpr int pieces = 8192;
+  std::vector<std::array<double, 2>> lobe;  // cosine, weight passed up to it
+  double passed = 0;
   for (int i = 0; i < pieces; ++i) {
     const double u = (i + 0.5) / pieces, tan2 = alpha2 * u / (1 - u);
     const double c = (1 - tan2) / (1 + tan2);  // cosine of twice the angle
-    if (c <= 0) continue;
-    const double seen = 2 * c / (c + std::sqrt(alpha2 + (1 - alpha2) * c * c));
-    cosine += seen * c;
-    weight += seen;
+    if (c <= 0) break;
+    passed += 2 * c / (c + std::sqrt(alpha2 + (1 - alpha2) * c * c));
+    lobe.push_back({c, passed});
   }
-  return std::min(widest_aperture, 2 * std::acos(std::clamp(2 * cosine / weight - 1, -1.0, 1.0)));
+  const auto half = std::find_if(lobe.begin(), lobe.end(), [&](const auto& at) { return at[1] >= passed / 2; });
+  return 2 * std::acos(std::clamp(2 * (*half)[0] - 1, -1.0, 1.0));
 }
 
 }  // namespace luxel

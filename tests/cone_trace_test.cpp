@@ -61,8 +61,10 @@ TEST(ConeSet, RefusesWhatDoesNotExist) {
 
 TEST(SpecularAperture, GrowsWithRoughness) {
   EXPECT_NEAR(specular_aperture(0), 0, 1e-6);
-  for (int i = 1; i <= 60; ++i) EXPECT_GT(specular_aperture(i / 64.0), specular_aperture((i - 1) / 64.0));
-  EXPECT_EQ(specular_aperture(1), 2.6);
+  for (int i = 1; i <= 64; ++i) EXPECT_GT(specular_aperture(i / 64.0), specular_aperture((i - 1) / 64.0));
+  // Narrow lobes: half of D cos lies within tan = alpha, mirrored at twice the angle; a cap's inner half ends at h / sqrt 2.
+  EXPECT_NEAR(specular_aperture(0.1), 2 * std::sqrt(2.0) * 2 * 0.01, 1e-4);
+  EXPECT_LT(specular_aperture(1), 2.6);
 }
 
 // A homogeneous medium: every cone's way out of the box has a closed form, whatever the steps.

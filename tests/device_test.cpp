@@ -205,6 +205,12 @@ TEST_P(Device, RunRefusesWhatDoesNotFit) {
   expect_refusal(context().run(*image_program, {narrow[0], good_images[1]}), Code::invalid_argument,
                  "gaussian_blur: binding src");
 
+  expect_refusal(run({{"src", good[0].memory, std::size_t{1} << 20}, good[1]}), Code::invalid_argument,
+                 "gaussian_blur: binding src begins at pixel 1048576");
+  expect_refusal(run({{"src", good[0].memory, 64}, good[1]}), Code::invalid_argument, "gaussian_blur: binding src has ");
+  expect_refusal(context().run(*image_program, {{"src", good_images[0].memory, 1}, good_images[1]}),
+                 Code::invalid_argument, "gaussian_blur: binding src is an image bound from texel 1");
+
   const std::shared_ptr<Context> other = value_of(Context::open("cpu"));
   const std::shared_ptr<Memory> foreign = value_of(other->make(plan.resources[1]));
   expect_refusal(run({good[0], {"dst", foreign}}), Code::invalid_argument, "another");

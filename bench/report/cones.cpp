@@ -142,7 +142,7 @@ Status measure(Session& session, ConeScenes& scenes, const ConeSetting& s) {
 }  // namespace
 
 std::shared_ptr<const ConeWorld> cone_box(int side, int width, int height) {
-  ConeWorld w{"box (generated)", side, {}, {}, width, height, {0.5, 0.7, 1}, 0.7};
+  ConeWorld w{"box (generated)", side, {}, {}, width, height, {0.16, 0.23, 0.33}, 0.7};
   const int wall = std::max(1, side / 32);
   for (int z = 0; z < side; ++z)
     for (int y = 0; y < side; ++y)
@@ -156,7 +156,8 @@ std::shared_ptr<const ConeWorld> cone_box(int side, int width, int height) {
         else if (y >= side - wall) c = {lamp ? 3.0 : 0.3, lamp ? 3.0 : 0.3, lamp ? 2.5 : 0.3, 1};
         else if (z >= side - wall) c = {0.3, 0.3, 0.5, 1};
         else if (u > 0.22 && u < 0.44 && t > 0.31 && t < 0.53 && v < 0.34) c = {0.2, 0.2, 0.2, 1};
-        for (const double value : c) w.voxels.push_back(static_cast<float>(value));
+        // Scaled so that the lamp is 1, which unorm8 holds.
+        for (int k = 0; k < 4; ++k) w.voxels.push_back(static_cast<float>(k < 3 ? c[k] / 3 : c[k]));
       }
   const double floor = static_cast<double>(wall) / side;
   for (int row = 0; row < height; ++row)
@@ -172,6 +173,12 @@ std::shared_ptr<const ConeWorld> cone_box(int side, int width, int height) {
                           {static_cast<float>(at[0]), static_cast<float>(covered ? top : at[1]), static_cast<float>(at[2])},
                           up ? std::array{0.0, 1.0, 0.0} : std::array{0.0, 0.0, -1.0});
     }
+  return std::make_shared<ConeWorld>(std::move(w));
+}
+
+std::shared_ptr<const ConeWorld> cone_fog(int side, int width, int height) {
+  ConeWorld w{"fog (generated)", side, cases::uniform_volume(side, {1e-3, 1e-3, 1e-3, 1e-3}), {}, width, height, {}, 0};
+  for (int i = 0; i < width * height; ++i) cases::add_receiver(w.receivers, {0.5, 0.3, 0.5}, {0, 1, 0});
   return std::make_shared<ConeWorld>(std::move(w));
 }
 

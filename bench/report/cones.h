@@ -27,6 +27,9 @@ struct ConeWorld {
 /// A box with a lamp, a block, and one open side, 64 x 64 x 64 or finer; receivers on the floor and the back wall.
 std::shared_ptr<const ConeWorld> cone_box(int side, int width, int height);
 
+/// Thin fog of one density; receivers in the middle, so that all cones of one direction take the same steps.
+std::shared_ptr<const ConeWorld> cone_fog(int side, int width, int height);
+
 struct ConeSetting {
   std::shared_ptr<const ConeWorld> world;
   ConeTraceParams params;

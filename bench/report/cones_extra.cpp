@@ -81,9 +81,9 @@ Status beside_sampling(Session& session, const ConeSetting& s) {
   for (double& v : r) v *= looks / (static_cast<double>(width) * height * each);
   const Sample ratio = summarise(r);
   session.row("peers",
-              {{"peer", fmt::format("trilinear look-ups in a loop ({}), {:.1f} a receiver",
+              {{"peer", fmt::format("trilinear look-ups in a loop ({}); ours {:.0f} a receiver of the {}",
                                     image ? "linear sampler" : profile.texels ? "texel buffer, by code" : "buffer, by code",
-                                    looks / (s.params.width * s.params.height))},
+                                    looks / (s.params.width * s.params.height), s.world->name)},
                {"version", "-"},
                {"kernel", "cone_trace"},
                {"size", fmt::format("{0}x{0}x{0}", s.world->side)},
@@ -166,16 +166,18 @@ std::vector<Job> cone_peers(Session& session) {
   if (session.is_cpu()) return {};
   std::vector<Job> jobs;
   const bool quick = session.settings().quick;
-  const auto box = cone_box(64, quick ? 64 : 256, quick ? 32 : 128);
-  for (const ConeVariant v : {ConeVariant::isotropic, ConeVariant::anisotropic})
-    for (const Input input : {Input::buffer, Input::image}) {
-      ConeSetting s = setting_for(box, v, Format::f32x4);
-      s.params.input = input;
-      // What is counted is what is read: a skipped look-up is no work.
-      jobs.push_back({fmt::format("cone_trace peer: sampling, {}{}", v == ConeVariant::isotropic ? "isotropic" : "anisotropic",
-                                  input == Input::image ? ", image" : ""),
-                      [&session, s] { return beside_sampling(session, s); }});
-    }
+  const int width = quick ? 64 : 256, height = quick ? 32 : 128;
+  for (const auto& world : {cone_box(64, width, height), cone_fog(64, width, height)})
+    for (const ConeVariant v : {ConeVariant::isotropic, ConeVariant::anisotropic})
+      for (const Input input : {Input::buffer, Input::image}) {
+        ConeSetting s = setting_for(world, v, Format::f32x4);
+        s.params.input = input;
+        s.params.skip_empty = false;  // a driver that runs neighbours in step reads what one of them needs
+        jobs.push_back({fmt::format("cone_trace peer: sampling, {}{}, {}",
+                                    v == ConeVariant::isotropic ? "isotropic" : "anisotropic",
+                                    input == Input::image ? ", image" : "", world->name),
+                        [&session, s] { return beside_sampling(session, s); }});
+      }
   return jobs;
 }
 

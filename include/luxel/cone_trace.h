@@ -123,8 +123,9 @@ std::size_t cone_trace_coarse_texels(const ConeTraceParams& params);
 std::array<int, 3> cone_trace_atlas_offset(const ConeTraceParams& params, int level, int direction = 0);
 std::array<int, 3> cone_trace_atlas_extent(const ConeTraceParams& params);
 
-/// Full angle, radians, of the cone that stands for the GGX lobe of a (perceptual) roughness 0..1: its mean cosine to the
-/// mirror direction is that of the lobe (with its masking) at normal incidence, above the horizon; at most 2.6.
+/// Full angle, radians, of the cone that stands for the GGX lobe of a (perceptual) roughness 0..1: half of the cone's
+/// solid angle and half of the lobe (with its masking, at normal incidence, above the horizon) lie within the same angle
+/// of the mirror direction. Its mean would be wider: GGX has long tails.
 double specular_aperture(double roughness);
 
 }  // namespace luxel

@@ -27,7 +27,7 @@ class ConeScene {
   Status trace(const ConeTraceParams& params, int repeat = 1, Times* times = nullptr);
   /// `irradiance`, `specular` ([n][4]) or `counters` of the last trace.
   Result<Values> read(const std::string& name) const;
-  /// Times of building all coarse levels, a run.
+  /// Times of building all coarse levels, warm.
   Times build_times() const { return build_times_; }
   /// Bytes of both volumes as the device holds them.
   std::size_t volume_bytes() const { return volume_bytes_; }
