@@ -137,6 +137,7 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                 {"lights", p.lights},
                 {"voxel", p.voxel},
                 {"normal_offset", p.normal_offset},
+                {"two_sided", p.two_sided},
                 {"unit", p.irradiance_max / steps},
                 {"scale", p.scale}},
                {{"COUNT", p.count}}, slots);

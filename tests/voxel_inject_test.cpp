@@ -227,6 +227,26 @@ TEST(VoxelInject, APlateCastsItsShadowAndGlassPassesItsShare) {
   }
 }
 
+TEST(VoxelInject, OnlyFrontsAreLitWhereThatIsAsked) {
+  Grid g(16, 8, 16);
+  floor_at(g, 3);
+  g.list_bricks();
+  for (const double up : {1.0, -1.0}) {
+    const std::vector<float> light =
+        voxel_lights({{VoxelLight::Kind::sun, {0, up, 0}, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
+    for (const std::string& device : all_devices())
+      for (const bool two_sided : {false, true}) {
+        VoxelInjectParams p = g.params();
+        p.lights = 1;
+        p.two_sided = two_sided;
+        const std::vector<double> r = radiance(device, g, p, light);
+        ASSERT_EQ(r.size(), g.voxels() * 4);
+        const double expected = up > 0 || two_sided ? 0.5 / std::numbers::pi : 0;
+        EXPECT_NEAR(r[g.at(5, 3, 5) * 4], expected, float_bound) << device << " " << up;
+      }
+  }
+}
+
 // --- Any volume: against the product over all cells
 
 double transmittance(const Grid& g, const Vec& from, const Vec& to, double reach) {

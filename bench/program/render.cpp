@@ -31,7 +31,7 @@ struct Arguments {
   double exposure = 0, ao_falloff = -1, ao_distance = 0;
   int samples = 64, bounces = 0, resolution = 128, cone_count = 6;
   double aperture = 0, step = 0.5, offset = 1;
-  bool anisotropic = false, thin = false;
+  bool anisotropic = false, thin = false, both_sides = false;
 };
 
 // Numbers between commas. Empty unless there are `count` and all are finite.
@@ -193,6 +193,7 @@ int run(const Arguments& a) {
   scene::VoxelSceneSettings voxels;
   voxels.resolution = a.resolution;
   voxels.variant = a.anisotropic ? ConeVariant::anisotropic : ConeVariant::isotropic;
+  voxels.two_sided = a.both_sides;
   voxels.mode = a.thin ? VoxelizeMode::thin : VoxelizeMode::conservative;
   ConeTraceParams cones;
   const auto set = cone_set(a.cone_count, a.aperture * std::numbers::pi / 180);
@@ -228,19 +229,23 @@ int run(const Arguments& a) {
 
 template <class Names>
 CLI::Validator one_of(const Names& names) {
-  return CLI::Validator([names](std::string& text) {
-    if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
-    return fmt::format("{} is not known; expected {}", text, fmt::join(names, ", "));
-  }, "");
+  return CLI::Validator(
+      [names](std::string& text) {
+        if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+        return fmt::format("{} is not known; expected {}", text, fmt::join(names, ", "));
+      },
+      "");
 }
 
 CLI::Validator within(double least, double most, bool whole) {
-  return CLI::Validator([=](std::string& text) {
-    const auto v = numbers(text, 1);
-    if (!v.empty() && v[0] >= least && v[0] <= most && (!whole || v[0] == std::floor(v[0]))) return std::string();
-    return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range",
-                       whole ? "a whole number " : "", least, most);
-  }, "");
+  return CLI::Validator(
+      [=](std::string& text) {
+        const auto v = numbers(text, 1);
+        if (!v.empty() && v[0] >= least && v[0] <= most && (!whole || v[0] == std::floor(v[0]))) return std::string();
+        return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range",
+                           whole ? "a whole number " : "", least, most);
+      },
+      "");
 }
 
 }  // namespace
@@ -255,9 +260,12 @@ void add_render(CLI::App& app, int& exit_status) {
     names.emplace_back(m.name);
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", m.name, m.meaning);
   }
-  command->add_option("--scene", a->scene, fmt::format("{}, atrium:N (N triangles), or a file: OBJ, PLY, glTF, GLB ...",
-                                                       fmt::join(scene::built_in_names(), ", ")))
-      ->required()->type_name("NAME|FILE");
+  command
+      ->add_option("--scene", a->scene,
+                   fmt::format("{}, atrium:N (N triangles), or a file: OBJ, PLY, glTF, GLB ...",
+                               fmt::join(scene::built_in_names(), ", ")))
+      ->required()
+      ->type_name("NAME|FILE");
   command
       ->add_option("-o,--out", a->out,
                    "picture: .png (with exposure and the sRGB curve), .exr, .hdr or .npy (linear radiance)")
@@ -267,7 +275,8 @@ void add_render(CLI::App& app, int& exit_status) {
       ->type_name("NAME")
       ->check(one_of(names));
   command->add_option("--show", a->show, fmt::format("{}: what the picture holds; default all", fmt::join(parts, "|")))
-      ->type_name("NAME")->check(one_of(parts));
+      ->type_name("NAME")
+      ->check(one_of(parts));
   command->add_option("--buffers", a->buffers, "folder for the G-buffer, each part, and what the method knows, as EXR")
       ->type_name("DIR");
   command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")
@@ -293,18 +302,30 @@ void add_render(CLI::App& app, int& exit_status) {
       ->type_name("NUMBER")
       ->check(within(1e-9, 1e9, false));
   command->add_option("--samples", a->samples, "of truth: paths of each of its two halves, 1..1048576; default 64")
-      ->type_name("INT")->check(within(1, 1048576, true));
+      ->type_name("INT")
+      ->check(within(1, 1048576, true));
   command->add_option("--bounces", a->bounces, "of truth: diffuse bounces, 0..1000; default 0: without end")
-      ->type_name("INT")->check(within(0, 1000, true));
+      ->type_name("INT")
+      ->check(within(0, 1000, true));
   command->add_option("--resolution", a->resolution, "of cone: voxels along each side, 8..1024; default 128")
-      ->type_name("N")->check(within(8, 1024, true));
+      ->type_name("N")
+      ->check(within(8, 1024, true));
   command->add_flag("--thin", a->thin, "of cone: 6-separating voxels; default: 26-separating");
+  command->add_flag("--both-sides", a->both_sides,
+                    "of cone: both sides of triangles reflect light; default: their fronts");
   command->add_flag("--anisotropic", a->anisotropic, "of cone: six directional volumes a level");
-  command->add_option("--cones", a->cone_count, "of cone: 1, 4, 5, 6, 8, 9, 16 or 25; default 6")->type_name("N")->check(within(1, 25, true));
+  command->add_option("--cones", a->cone_count, "of cone: 1, 4, 5, 6, 8, 9, 16 or 25; default 6")
+      ->type_name("N")
+      ->check(within(1, 25, true));
   command->add_option("--aperture", a->aperture, "of cone: full angle, degrees, 0..149; default 0: the set's own")
-      ->type_name("DEG")->check(within(0, 149, false));
-  command->add_option("--step", a->step, "of cone: in diameters of the cone, 0.0625..4; default 0.5")->type_name("NUMBER")->check(within(0.0625, 4, false));
-  command->add_option("--offset", a->offset, "of cone: voxels above the surface where cones start, 0..64; default 1")->type_name("NUMBER")->check(within(0, 64, false));
+      ->type_name("DEG")
+      ->check(within(0, 149, false));
+  command->add_option("--step", a->step, "of cone: in diameters of the cone, 0.0625..4; default 0.5")
+      ->type_name("NUMBER")
+      ->check(within(0.0625, 4, false));
+  command->add_option("--offset", a->offset, "of cone: voxels above the surface where cones start, 0..64; default 1")
+      ->type_name("NUMBER")
+      ->check(within(0, 64, false));
   add_device_option(*command, a->device);
   command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });

@@ -170,6 +170,7 @@ Status VoxelScene::inject(Pyramid& pyramid, bool emission, const std::vector<Vox
   p.voxel = grid_.voxel;
   p.emission = emission;
   p.lights = static_cast<int>(lights.size());
+  p.two_sided = settings_.two_sided;
   p.clear = !pyramid.fine;
   if (!map.empty()) {
     p.map_width = 1024;
@@ -361,7 +362,7 @@ Status VoxelScene::light() {
     for (std::size_t i = 0; i < places.size() / 4; ++i) {
       const float* a = &e[8 * i];
       const float* b = a + 4;
-      const float* side = luminance({a[0], a[1], a[2]}) >= luminance({b[0], b[1], b[2]}) ? a : b;
+      const float* side = !settings_.two_sided || luminance({a[0], a[1], a[2]}) >= luminance({b[0], b[1], b[2]}) ? a : b;
       map.insert(map.end(), &places[4 * i], &places[4 * i] + 4);
       map.insert(map.end(), {side[0], side[1], side[2], 0});
     }

@@ -24,6 +24,7 @@ struct VoxelSceneSettings {
   VoxelizeMode mode = VoxelizeMode::conservative;
   ConeVariant variant = ConeVariant::isotropic;
   bool textures = true;  // base-colour textures are sampled in the voxels; false: their mean
+  bool two_sided = false;    // true: both sides of every surface are lit alike, and show light on their backs
   int lamp_pieces = 64;  // emitting triangles are lights of about so many pieces where they are no more than these and
                          // no sky shines: lamps. Else cones gather what they send
   int voxel_cones = 6;   // cones of a voxel that sky and many emitters light

@@ -40,6 +40,8 @@ struct VoxelInjectParams {
   double voxel = 1;               // side of a voxel, scene units, > 0
   double normal_offset = 2.6;     // shadow rays start this many voxels above a voxel's centre (and end as many above a patch), 0..64. From 3 sqrt(3) / 2 on a
                                   // plane never shadows itself
+  bool two_sided = true;          // both sides of a surface are lit alike; false: the front of its triangles, so that light
+                                  // on the back of a wall (a roof in the sun) does not show inside
   double scale = 1;               // radiance is multiplied by this before it is stored, > 0 (unorm8 holds 0..1)
   bool count = false;             // fills `outcomes`
 };
@@ -58,8 +60,9 @@ enum class VoxelInjectCount {
 /// the outer corner of voxel (0,0,0), and 1 where light arrives, else 0; irradiance there, and an unused channel; a voxel
 /// gets the mean of its texels); written `radiance` (premultiplied radiance and coverage; with `clear` every voxel, else
 /// those of touched bricks) and `outcomes` (8 u32; with `count`).
-/// A voxel has two sides alike. Its irradiance from a light of direction l is E T (|N.l| + (1 - |N|) / 4): N is the mean
-/// normal, and what its length lacks faces everywhere; T is the transmittance of the shadow ray.
+/// A voxel has one radiance for all sides. Its irradiance from a light of direction l is E T (|N.l| + (1 - |N|) / 4): N is
+/// the mean normal, and what its length lacks faces everywhere; T is the transmittance of the shadow ray. With two_sided off
+/// |N.l| is max(0, N.l).
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelInjectParams& params);
 Result<Plan> plan(const VoxelInjectParams& params, const Profile& profile);

@@ -87,10 +87,10 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
         }
     }
     const float facing = inner(n, to);
-    share = share * (abs(facing) + 0.25f * max(0.0f, 1.0f - length));
+    share = share * ((params.two_sided != 0 ? abs(facing) : max(0.0f, facing)) + 0.25f * max(0.0f, 1.0f - length));
     if (!(share > 0.0f)) return vec3(0.0f);
     vec3 above = to;
-    if (length > 0.0f) above = (facing < 0.0f ? -1.0f : 1.0f) / length * n;
+    if (length > 0.0f) above = (facing < 0.0f && params.two_sided != 0 ? -1.0f : 1.0f) / length * n;
     share = share * transmittance(ctx, centre + params.normal_offset * above, to, reach);
     return share * vec3(power.x, power.y, power.z);
 }

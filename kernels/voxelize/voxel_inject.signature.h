@@ -27,6 +27,7 @@
     _(int, lights)           /* in the list */ \
     _(float, voxel)          /* side of a voxel, scene units */ \
     _(float, normal_offset)  /* voxels */ \
+    _(int, two_sided)        /* 0: only the side that the mean normal points to is lit */ \
     _(float, unit)           /* irradiance of one step of the map's sums */ \
     _(float, scale)          /* of stored radiance */
 #define CONSTANTS(_) \
