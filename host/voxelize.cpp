@@ -294,17 +294,29 @@ class Voxelization {
   void resolve(Slot to, int of, int at) {
     constexpr const char* labels[] = {"voxelize means", "voxelize normals", "voxelize emission", "voxelize unpack"};
     const std::array<int, 3> last = last_of(p_);
-    planner_.pass("voxelize_resolve", name(p_.format), labels[of],
-                  {static_cast<std::uint32_t>(last[0] / brick - p_.first[0] / brick + 1),
-                   static_cast<std::uint32_t>(last[1] - p_.first[1] + 1),
-                   static_cast<std::uint32_t>(last[2] - p_.first[2] + 1)},
-                  profile_.voxels.workgroup,
+    std::array<std::uint32_t, 3> invocations{static_cast<std::uint32_t>(last[0] / brick - p_.first[0] / brick + 1),
+                                             static_cast<std::uint32_t>(last[1] - p_.first[1] + 1),
+                                             static_cast<std::uint32_t>(last[2] - p_.first[2] + 1)};
+    if (p_.touched_only) invocations = launch(std::int64_t{room_.bricks} * brick * brick);
+    planner_.pass("voxelize_resolve", name(p_.format), labels[of], invocations,
+                  p_.touched_only ? line : profile_.voxels.workgroup,
                   grid_values(p_) + Planner::Values{{"words", words_},
                                                     {"at", at},
                                                     {"emission_unit", emission_unit()},
+                                                    {"capacity", room_.bricks},
+                                                    {"stride", stride(invocations)},
                                                     {"opacity", p_.opacity}},
-                  {{"OF", of}},
-                  {{"slots", slots_}, {"sums", sums_}, {"carries", carries_}, {"counters", counters_}, {"dst", to}});
+                  {{"OF", of}, {"TOUCHED", p_.touched_only}},
+                  {{"slots", slots_},
+                   {"sums", sums_},
+                   {"carries", carries_},
+                   {"counters", counters_},
+                   {"dst", to},
+                   {"brick_list", list_}});
+    if (p_.touched_only) {
+      planner_.cost(0, static_cast<double>(room_.bricks) * brick_voxels * static_cast<double>(bytes_per_pixel(p_.format)));
+      return;
+    }
     double voxels = 1;
     for (std::size_t k = 0; k < 3; ++k) voxels *= last[k] - p_.first[k] + 1;
     planner_.cost(0, voxels * static_cast<double>(bytes_per_pixel(p_.format)));

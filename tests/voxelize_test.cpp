@@ -281,6 +281,28 @@ TEST(Voxelize, ARegionIsTheSameAsThatPartOfTheWhole) {
   }
 }
 
+TEST(Voxelize, TouchedBricksAloneAreWritten) {
+  const VoxelGrid grid = unit_grid(44);
+  const VoxelTriangles triangles = prepare(painted(20, 44), grid);
+  VoxelizeParams whole = voxelize_params(grid, triangles);
+  whole.materials = 3;
+  VoxelizeParams touched = whole;
+  touched.touched_only = true;
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    const Voxelized all = voxelize(context, whole, triangles, paints()), some = voxelize(context, touched, triangles, paints());
+    EXPECT_EQ(some.counters, all.counters) << device;
+    std::vector<std::uint32_t> bricks = all.words("bricks");
+    bricks.resize(all.count(VoxelizeCount::bricks));
+    const Bytes &a = all.bytes.at("colour"), &b = some.bytes.at("colour");
+    for (std::size_t i = 0; i < a.size() / 16; ++i) {
+      const auto brick = static_cast<std::uint32_t>(i % 44 / 8 + (i / 44 % 44 / 8 + i / 44 / 44 / 8 * 6) * 6);
+      const bool listed = std::binary_search(bricks.begin(), bricks.end(), brick);
+      for (std::size_t k = 16 * i; k < 16 * i + 16; ++k) ASSERT_EQ(b[k], listed ? a[k] : guard_byte) << device;
+    }
+  }
+}
+
 TEST(Voxelize, AnEmptyMeshIsAnEmptyGrid) {
   const VoxelGrid grid = unit_grid(9);
   const VoxelTriangles triangles = prepare({}, grid);

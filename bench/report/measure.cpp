@@ -8,6 +8,7 @@
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
+#include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
 #include "bench/report/rendered.h"
 #include "bench/report/session.h"
@@ -15,6 +16,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/mip_build_cases.h"
+#include "tests/cases/voxelize_cases.h"
 
 namespace luxel::report {
 namespace {
@@ -58,6 +60,10 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, mip_peers(session));
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
     if (first) append(jobs, mip_pictures(session, scenes));
+  }
+  if (settings.wants("voxelize")) {
+    append(jobs, voxel_jobs(session));
+    append(jobs, stability_jobs(session, cases::voxelize_cases()));
   }
   if (settings.wants("cone_trace")) {
     append(jobs, cone_grid(session));

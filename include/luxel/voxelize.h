@@ -91,6 +91,7 @@ struct VoxelizeParams {
   int depth = 0;                 // 1..2048
   std::array<int, 3> first{0, 0, 0};      // the region that is made, first and last voxel: what lies outside keeps what the
   std::array<int, 3> last{-1, -1, -1};    // volumes hold; -1: to the end
+  bool touched_only = false;    // volumes are written in touched bricks only; elsewhere they keep what they hold
   VoxelizeMode mode = VoxelizeMode::conservative;
   VoxelizeMerging merging = VoxelizeMerging::exact;
   Format format = Format::f32x4; // of the volumes: f32x4, f16x4, unorm8x4

@@ -29,24 +29,41 @@ FN vec4 mean_of(CTX, int voxel) {
     return vec4(scale * mean.x, scale * mean.y, scale * mean.z, 0.0f);
 }
 
-KERNEL(voxelize_resolve) {
+// Of row (y, z) of the grid, the voxels that lie in a brick of a slot (0: none) and in the region.
+FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
     const ivec3 extent = ivec3(params.width, params.height, params.depth);
-    const int brick_x = params.first_x / BRICK + invocation_x();
-    const ivec3 first = ivec3(max(brick_x * BRICK, params.first_x), params.first_y + invocation_y(),
-                              params.first_z + invocation_z());
+    const int first_x = max(brick_x * BRICK, params.first_x);
     const int last_x = min(brick_x * BRICK + (BRICK - 1), params.last_x);
-    if (first.x > last_x || first.y > params.last_y || first.z > params.last_z) return;
-    const uint slot = load(slots, linear_of(first / BRICK, blocks_of(extent, BRICK)));
     if (slot == 0u) {
-        for (int x = first.x; x <= last_x; ++x) store_voxel(dst, extent, ivec3(x, first.y, first.z), vec4(0.0f));
+        for (int x = first_x; x <= last_x; ++x) store_voxel(dst, extent, ivec3(x, y, z), vec4(0.0f));
         return;
     }
-    const int row = linear_of(ivec3(0, first.y % BRICK, first.z % BRICK), ivec3(BRICK, BRICK, BRICK));
+    const int row = (int(slot) - 1) * BRICK_VOXELS + linear_of(ivec3(0, y % BRICK, z % BRICK), ivec3(BRICK, BRICK, BRICK));
     uint occupied = 0u;
-    for (int x = first.x; x <= last_x; ++x) {
-        const vec4 mean = mean_of(ctx, (int(slot) - 1) * BRICK_VOXELS + row + x % BRICK);
+    for (int x = first_x; x <= last_x; ++x) {
+        const vec4 mean = mean_of(ctx, row + x % BRICK);
         if (mean.w > 0.0f) ++occupied;
-        store_voxel(dst, extent, ivec3(x, first.y, first.z), mean);
+        store_voxel(dst, extent, ivec3(x, y, z), mean);
     }
     if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);
+}
+
+KERNEL(voxelize_resolve) {
+    const ivec3 grid = blocks_of(ivec3(params.width, params.height, params.depth), BRICK);
+    if (TOUCHED != 0) {
+        const int rows = int(min(load(counters, COUNT_BRICKS), uint(params.capacity))) * (BRICK * BRICK);
+        for (int i = invocation_x(); i < rows; i += params.stride) {
+            const int number = i / (BRICK * BRICK);
+            const ivec3 brick = position_of(int(load(brick_list, number)), grid);
+            const int y = brick.y * BRICK + i % BRICK;
+            const int z = brick.z * BRICK + i / BRICK % BRICK;
+            if (y >= params.first_y && y <= params.last_y && z >= params.first_z && z <= params.last_z)
+                resolve_row(ctx, brick.x, y, z, uint(number) + 1u);
+        }
+        return;
+    }
+    const ivec3 at = ivec3(params.first_x / BRICK + invocation_x(), params.first_y + invocation_y(),
+                           params.first_z + invocation_z());
+    if (at.x * BRICK > params.last_x || at.y > params.last_y || at.z > params.last_z) return;
+    resolve_row(ctx, at.x, at.y, at.z, load(slots, linear_of(ivec3(at.x, at.y / BRICK, at.z / BRICK), grid)));
 }

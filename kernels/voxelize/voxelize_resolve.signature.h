@@ -21,12 +21,16 @@
     _(int, words)            /* of a voxel's accumulators */ \
     _(int, at)               /* first of the three that are read; colour: that of opacity, or 0 for none */ \
     _(float, emission_unit)  /* emission of one step of 2^-14 */ \
+    _(int, capacity)         /* bricks that the list holds at most */ \
+    _(int, stride)           /* invocations along x */ \
     _(int, opacity)          /* 1: the fourth channel of packed colour is it; 0: it is 1 wherever there is something */
 #define CONSTANTS(_) \
-    _(0, int, OF, 0)
+    _(0, int, OF, 0) \
+    _(1, int, TOUCHED, 0)  /* 1: only bricks of the list are written, in a launch along x that strides over it */
 #define BINDINGS(_) \
     _(READ, 0, uint, slots) \
     _(READ, 1, uint, sums) \
     _(READ, 2, uint, carries) \
     _(UPDATE, 3, uint, counters) \
-    _(WRITE, 4, PIXEL, dst)
+    _(WRITE, 4, PIXEL, dst) \
+    _(READ, 5, uint, brick_list)

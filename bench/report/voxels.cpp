@@ -1,0 +1,359 @@
+#include "bench/report/voxels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "bench/truth/voxel_truth.h"
+#include "tests/cases/compare.h"
+#include "tests/cases/storage.h"
+#include "tests/cases/voxelize_support.h"
+
+namespace luxel::report {
+
+VoxelGrid grid_around(const cases::Mesh& mesh, int n) {
+  std::array<double, 3> low, high;
+  low.fill(std::numeric_limits<double>::infinity());
+  high.fill(-std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    low[i % 3] = std::min(low[i % 3], mesh.positions[i]);
+    high[i % 3] = std::max(high[i % 3], mesh.positions[i]);
+  }
+  const double side = 1.02 * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+  VoxelGrid grid = cases::unit_grid(n);
+  for (std::size_t k = 0; k < 3; ++k) grid.origin[k] = (low[k] + high[k] - side) / 2;
+  grid.voxel = side / n;
+  return grid;
+}
+
+cases::Mesh bunny_or_ball(std::string& name) {
+  const char* const data = std::getenv("LUXEL_DATA");
+  cases::Mesh mesh = data ? cases::read_obj(std::string(data) + "/stanford_bunny/stanford-bunny.obj") : cases::Mesh{};
+  name = mesh.triangles() > 0 ? "bunny" : "ball";
+  if (mesh.triangles() == 0) mesh = cases::icosphere({0, 0, 0}, 1, 6);
+  return mesh;
+}
+
+cases::Mesh floor_of(int parts) {
+  cases::Mesh mesh;
+  const double w = 256.0 / parts;
+  const auto y = [](double x) { return 100 + 0.1 * x; };
+  for (int i = 0; i < parts; ++i)
+    for (int j = 0; j < parts; ++j) {
+      const double x = i * w, z = j * w;
+      mesh.add({x, y(x), z, x, y(x), z + w, x + w, y(x + w), z});
+      mesh.add({x + w, y(x + w), z, x, y(x), z + w, x + w, y(x + w), z + w});
+    }
+  return mesh;
+}
+
+namespace {
+
+using cases::Run;
+using Values = std::vector<double>;
+
+struct Setting {
+  std::shared_ptr<const VoxelScene> scene;
+  VoxelizeMode mode = VoxelizeMode::conservative;
+  VoxelizeMerging merging = VoxelizeMerging::exact;
+  Format format = Format::f32x4;
+  bool attributes = false;      // normals too
+  bool touched_only = false;
+  bool errors = true;           // compare with the truth
+};
+
+const char* name(VoxelizeMode mode) {
+  constexpr const char* names[] = {"conservative", "thin", "dilated"};
+  return names[static_cast<int>(mode)];
+}
+const char* name(VoxelizeMerging merging) {
+  constexpr const char* names[] = {"exact", "moving_average", "last_write"};
+  return names[static_cast<int>(merging)];
+}
+std::string size_text(const VoxelScene& s) { return fmt::format("{0}x{0}x{0}", s.grid.width); }
+std::string label(const Setting& s) {
+  return fmt::format("voxelize {} {} {}{}{} on {} {}", name(s.mode), name(s.merging), luxel::name(s.format),
+                     s.attributes ? " normals" : "", s.touched_only ? " touched only" : "", s.scene->name,
+                     size_text(*s.scene));
+}
+
+// Three opaque colours.
+const std::vector<truth::Material>& colours() {
+  static const std::vector<truth::Material> all{{{0.8, 0.1, 0.25, 1}, {}}, {{0, 1, 0.5, 1}, {}}, {{0.3, 0.7, 0.9, 1}, {}}};
+  return all;
+}
+
+Result<VoxelizeParams> params_of(const Setting& s, const VoxelTriangles& triangles) {
+  VoxelizeParams p = voxelize_params(s.scene->grid, triangles);
+  p.mode = s.mode;
+  p.merging = s.merging;
+  p.format = s.format;
+  p.normal = s.attributes;
+  p.touched_only = s.touched_only;
+  p.materials = static_cast<int>(colours().size());
+  return p;
+}
+
+Result<std::shared_ptr<Run>> ready(Context& context, const Setting& s) {
+  const Result<VoxelTriangles> triangles = voxel_triangles(s.scene->mesh.view(), s.scene->grid);
+  if (!triangles) return triangles.status();
+  const Result<VoxelizeParams> p = params_of(s, triangles.value());
+  if (!p) return p.status();
+  Result<Run> made = Run::make(context, plan(p.value(), context.profile()));
+  if (!made) return made.status();
+  const auto run = std::make_shared<Run>(std::move(made).value());
+  Values records, table;
+  for (const std::int32_t word : triangles.value().records) records.push_back(static_cast<std::uint32_t>(word));
+  for (const truth::Material& m : colours()) {
+    table.insert(table.end(), m.colour.begin(), m.colour.end());
+    table.insert(table.end(), 4, 0.0);
+  }
+  if (Status status = run->write("triangles", records); !status) return status;
+  if (Status status = run->write("materials", table); !status) return status;
+  return run;
+}
+
+Result<Values> colour_of(Context& context, const Setting& s) {
+  const auto run = ready(context, s);
+  if (!run) return run.status();
+  if (Status status = run.value()->go(); !status) return status;
+  return run.value()->read("colour");
+}
+
+// Where both are occupied, the largest difference; and voxels that one has and the other has not.
+struct Difference {
+  double colour = 0, voxels = 0;
+};
+Difference compare(const Values& a, const Values& b) {
+  if (a.size() != b.size()) return {NAN, NAN};
+  Difference d;
+  for (std::size_t i = 0; i < a.size(); i += 4) {
+    if ((a[i + 3] > 0) != (b[i + 3] > 0)) {
+      ++d.voxels;
+      continue;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      if (const double v = std::fabs(a[i + k] - b[i + k]); !(v <= d.colour)) d.colour = v;
+  }
+  return d;
+}
+
+Values truth_of(const Setting& s) {
+  const Result<VoxelTriangles> triangles = voxel_triangles(s.scene->mesh.view(), s.scene->grid);
+  // What dilated is to approximate is the conservative set.
+  const VoxelizeMode mode = s.mode == VoxelizeMode::dilated ? VoxelizeMode::conservative : s.mode;
+  Values values;
+  for (const truth::Voxel& v : truth::voxels(triangles.value(), s.scene->grid, mode, colours()))
+    values.insert(values.end(), {v.colour[0], v.colour[1], v.colour[2], v.touched ? 1.0 : 0.0});
+  return values;
+}
+
+Status measure(Session& session, const Setting& s) {
+  const auto made = ready(session.context(), s);
+  if (!made) return made.status();
+  Run& run = *made.value();
+  const Result<Sample> ms = session.time(run, label(s));
+  if (!ms) return ms.status();
+
+  Difference rounding, storage, method, device;
+  if (s.errors) {
+    const Result<Values> own = run.read("colour");
+    if (!own) return own.status();
+    // Two oracles, one for colours and one for sets: rounding, storage, method.
+    std::vector<Oracle> computed;
+    const auto oracle = [&](std::size_t index) {
+      return session.oracle(fmt::format("{} {}", label(s), index), [&]() -> Result<Oracle> {
+        if (computed.empty()) {
+          Setting wide = s;
+          wide.format = Format::f32x4;
+          const auto exact = colour_of(session.cpu_double(), s), f32 = colour_of(session.cpu_float(), wide),
+                     stored = colour_of(session.cpu_float(), s);
+          if (!exact) return exact.status();
+          if (!f32) return f32.status();
+          if (!stored) return stored.status();
+          const Difference r = compare(f32.value(), exact.value()), t = compare(stored.value(), f32.value()),
+                           m = compare(exact.value(), truth_of(s));
+          const Values& v = stored.value();
+          const std::uint64_t bits = hash_bytes(cases::store(v, Format::f32x4, true));
+          computed = {{bits, r.colour, t.colour, m.colour}, {bits, r.voxels, t.voxels, m.voxels}};
+        }
+        return computed[index];
+      });
+    };
+    const Result<Oracle> colour = oracle(0), voxels = oracle(1);
+    if (!colour) return colour.status();
+    if (!voxels) return voxels.status();
+    rounding = {colour.value().rounding, voxels.value().rounding};
+    storage = {colour.value().storage, voxels.value().storage};
+    method = {colour.value().method, voxels.value().method};
+    const bool equal = hash_bytes(cases::store(own.value(), Format::f32x4, true)) == colour.value().bits;
+    if (s.merging == VoxelizeMerging::exact) session.promise_bits("voxelize", equal, label(s));
+    if (!equal) {
+      const Result<Values> other = colour_of(session.cpu_float(), s);
+      if (!other) return other.status();
+      device = compare(own.value(), other.value());
+    }
+  }
+  const auto row = [&](const char* metric, double r, double st, double m, double d) {
+    const auto value = [&](double v) { return s.errors ? Json(v) : Json(); };
+    session.row("frontier", {{"kernel", "voxelize"},
+                             {"variant", name(s.mode)},
+                             {"device", session.device()},
+                             {"scene", s.scene->name},
+                             {"size", size_text(*s.scene)},
+                             {"options",
+                              {{"format", luxel::name(s.format)},
+                               {"merging", name(s.merging)},
+                               {"normals", s.attributes},
+                               {"touched_only", s.touched_only}}},
+                             {"knobs", {{"triangles", s.scene->mesh.triangles()}}},
+                             {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
+                             {"error",
+                              {{"metric", metric},
+                               {"rounding", value(r)},
+                               {"storage", value(st)},
+                               {"device", value(d)},
+                               {"method", value(m)},
+                               {"discretization", nullptr},
+                               {"model", nullptr},
+                               {"stderr", nullptr}}},
+                             {"bytes", run.plan().bytes},
+                             {"flops", run.plan().flops},
+                             {"memory_bytes", run.memory_bytes()},
+                             {"on_frontier", nullptr},
+                             {"group", fmt::format("voxelize|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name,
+                                                   size_text(*s.scene), metric, name(s.mode), s.attributes)}});
+  };
+  row("max |x - t| of colour 0..1", rounding.colour, storage.colour, method.colour, device.colour);
+  row("voxels missing or extra", rounding.voxels, storage.voxels, method.voxels, device.voxels);
+  return {};
+}
+
+// Published by the peer for its CPU path on twelve threads of an i7-8750H; not run here.
+Status beside_published(Session& session, const Setting& s, double published_ms) {
+  const auto made = ready(session.context(), s);
+  if (!made) return made.status();
+  const Result<Sample> ms = session.time(*made.value(), "beside cuda_voxelizer, " + label(s));
+  if (!ms) return ms.status();
+  session.row("peers", {{"peer", "cuda_voxelizer, CPU path, as published (12 threads, i7-8750H)"},
+                        {"version", "published"},
+                        {"kernel", "voxelize"},
+                        {"size", size_text(*s.scene)},
+                        {"time_ms", to_json(summarise({published_ms}))},
+                        {"error", nullptr},
+                        {"ratio", published_ms / ms.value().median},
+                        {"q1", published_ms / ms.value().q3},
+                        {"q3", published_ms / ms.value().q1},
+                        {"device", session.device()},
+                        {"options", {{"format", luxel::name(s.format)}, {"variant", name(s.mode)}}},
+                        {"own_ms", to_json(ms.value())},
+                        {"own_error", nullptr},
+                        {"goal", s.scene->grid.width == 256 && session.context().info().api == Api::opencl ? Json(1.0) : Json()}});
+  return {};
+}
+
+Status left_out(Session& session, const Setting& more, const Setting& fewer, const char* what, int level) {
+  const auto a = ready(session.context(), more), b = ready(session.context(), fewer);
+  if (!a) return a.status();
+  if (!b) return b.status();
+  const auto timed = [](const std::shared_ptr<Run>& run) -> Session::Timed {
+    return [run]() -> Result<double> {
+      Times times;
+      if (Status status = run->go(1, &times); !status) return status;
+      return times.total;
+    };
+  };
+  const auto pair = session.interleave(timed(a.value()), timed(b.value()), fmt::format("left out: {}", what));
+  if (!pair) return pair.status();
+  // Where there is something: elsewhere the volume may keep what it held.
+  const Result<Values> x = a.value()->read("colour"), y = b.value()->read("colour");
+  if (!x) return x.status();
+  if (!y) return y.status();
+  double error = 0;
+  for (std::size_t i = 0; i < x.value().size(); i += 4)
+    for (std::size_t k = 0; k < 4 && x.value()[i + 3] > 0; ++k)
+      if (const double v = std::fabs(x.value()[i + k] - y.value()[i + k]); !(v <= error)) error = v;
+  Values saved;
+  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  session.row("left_out", {{"kernel", "voxelize"},
+                           {"scene", fewer.scene->name + " " + size_text(*fewer.scene)},
+                           {"what", what},
+                           {"level", level},
+                           {"saved_ms", summarise(saved).median},
+                           {"saved_bytes", a.value()->plan().bytes - b.value()->plan().bytes},
+                           {"error", error},
+                           {"device", session.device()}});
+  return {};
+}
+
+}  // namespace
+
+std::vector<Job> voxel_jobs(Session& session) {
+  const bool quick = session.settings().quick;
+  std::string what;
+  cases::Mesh mesh = bunny_or_ball(what);
+  mesh.materials.clear();
+  for (std::size_t t = 0; t < mesh.triangles(); ++t) mesh.materials.push_back(static_cast<std::uint32_t>(t / 1000 % 3));
+  const auto scene_of = [&](int n) {
+    return std::make_shared<const VoxelScene>(VoxelScene{what, mesh, grid_around(mesh, n)});
+  };
+  std::vector<Job> jobs;
+  const auto add = [&](const Setting& s) { jobs.push_back({label(s), [&session, s] { return measure(session, s); }}); };
+  const auto small = scene_of(quick ? 32 : 64);
+  for (const VoxelizeMode mode : {VoxelizeMode::conservative, VoxelizeMode::thin, VoxelizeMode::dilated}) {
+    Setting s{small};
+    s.mode = mode;
+    for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4}) {
+      s.format = format;
+      add(s);
+    }
+    s.format = Format::f32x4;
+    for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
+      s.merging = merging;
+      add(s);
+    }
+  }
+  Setting normals{small};
+  normals.attributes = true;
+  add(normals);
+  // Times alone, where the truth takes long; published times of the peer.
+  for (const auto& [n, published] : {std::pair{64, 39.8}, {128, 63.6}, {256, 118.0}, {512, 309.0}}) {
+    if ((quick && n > 128) || (session.is_cpu() && n > 128)) continue;
+    Setting s{scene_of(n)};
+    s.errors = false;
+    s.format = n > 128 ? Format::unorm8x4 : Format::f32x4;
+    add(s);
+    s.touched_only = true;
+    add(s);
+    s.touched_only = false;
+    const double ms = published;
+    if (what == "bunny")
+      jobs.push_back({"peer of " + label(s), [&session, s, ms] { return beside_published(session, s, ms); }});
+  }
+  if (!session.is_cpu())
+    for (const int parts : {1, 16, 256}) {
+      const cases::Mesh floor = floor_of(parts);
+      Setting s{std::make_shared<const VoxelScene>(
+          VoxelScene{fmt::format("floor of {} triangles", floor.triangles()), floor, cases::unit_grid(256)})};
+      s.errors = false;
+      s.format = Format::unorm8x4;
+      s.touched_only = true;
+      add(s);
+    }
+  Setting touched{small};
+  touched.touched_only = true;
+  const Setting whole{small};
+  jobs.push_back({"voxelize left out: empty bricks", [&session, whole, touched] {
+                    return left_out(session, whole, touched, "writing bricks that nothing touches", 2);
+                  }});
+  jobs.push_back({"voxelize left out: normals", [&session, whole, normals] {
+                    return left_out(session, normals, whole, "normals that nothing reads", 1);
+                  }});
+  return jobs;
+}
+
+}  // namespace luxel::report
