@@ -123,7 +123,7 @@ enum class VoxelizeCount {
   bricks,      // needed: bricks that triangles touch
   fragments,   // needed: pairs of voxel and triangle (0 where no list is asked for)
   occupied,    // voxels
-  saturated,   // times that a count wrapped (moving_average); exact merging holds 2^31 triangles a voxel
+  saturated,   // times that a count wrapped (moving_average); exact merging holds 2^27 triangles a voxel
   not_finite,  // device vertices: triangles skipped for a NaN or an infinity
   bad_index,   // device vertices: triangles skipped for an index beyond the vertices
   far          // device vertices: triangles skipped because they reach beyond -2..3 grids

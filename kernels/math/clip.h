@@ -12,12 +12,17 @@ FN vec3 cross_of(vec3 a, vec3 b) {
 FN vec4 part_in_cube(vec3 a, vec3 b, vec3 c) {
     vec3 points[CLIP_VERTICES];
     vec3 clipped[CLIP_VERTICES];
+    const vec3 low = min(a, min(b, c));
+    const vec3 high = max(a, max(b, c));
+    if (low.x >= 0.0f && low.y >= 0.0f && low.z >= 0.0f && high.x <= 1.0f && high.y <= 1.0f && high.z <= 1.0f) {
+        const vec3 u = cross_of(b - a, c - a);
+        const vec3 middle = (a + b + c) / 3.0f;
+        return vec4(middle.x, middle.y, middle.z, 0.5f * sqrt(u.x * u.x + u.y * u.y + u.z * u.z));
+    }
     points[0] = a;
     points[1] = b;
     points[2] = c;
     int count = 3;
-    const vec3 low = min(a, min(b, c));
-    const vec3 high = max(a, max(b, c));
     for (int face = 0; face < 6; ++face) {
         // Inside is at >= 0; at = x - 0 for a lower face, 1 - x for an upper one.
         const int axis = face >> 1;

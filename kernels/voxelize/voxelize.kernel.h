@@ -5,6 +5,8 @@
 // diagonal (Crassin and Green, Octree-Based Sparse Voxelization Using the GPU Hardware Rasterizer, 2012).
 
 #define WITH_TEXTURES (TEXTURES != 0)
+#define WEIGHT_STEPS 4194304.0f  // 2^22 to a voxel^2
+#define WEIGHT_LEAST 64u         // 2^-16 voxel^2
 
 FN ivec3 vertex(CTX, int t, int i) {
     const int at = t * TRIANGLE_WORDS + 3 * i;
@@ -29,34 +31,36 @@ FN vec3 position(ivec3 v) { return vec3(float_of_int(v.x), float_of_int(v.y), fl
 // 0..1 in steps of 2^-14.
 FN uint steps_of(float v) { return v > 0.0f ? uint(min(v, 1.0f) * 16384.0f + 0.5f) : 0u; }
 
-// Sums have 64 bits: a count of 2^31 triangles fits.
-FN void add(CTX, int at, uint v) {
-    if (v == 0u) return;
-    const uint before = atomic_add(sums, at, v);
-    if (before + v < before) atomic_add(carries, at, 1u);
+// weight * value into a sum of 64 bits; at most 2^37 each, so that the shares of 2^27 triangles fit.
+FN void add(CTX, int at, uint weight, uint value) {
+    const uvec2 v = product_unsigned(weight, value);
+    if (v.x == 0u && v.y == 0u) return;
+    const uint before = atomic_add(sums, at, v.x);
+    const uint over = v.y + carry_of(before, v.x, before + v.x);
+    if (over > 0u) atomic_add(carries, at, over);
 }
 
 FN void add_mean(CTX, int voxel, uint weight, vec4 colour, vec3 emission, vec3 normal) {
     int at = voxel * (4 + OPACITY + 3 * NORMAL + 3 * EMISSION);
-    add(ctx, at, weight);
-    add(ctx, at + 1, weight * steps_of(colour.x));
-    add(ctx, at + 2, weight * steps_of(colour.y));
-    add(ctx, at + 3, weight * steps_of(colour.z));
+    add(ctx, at, weight, 1u);
+    add(ctx, at + 1, weight, steps_of(colour.x));
+    add(ctx, at + 2, weight, steps_of(colour.y));
+    add(ctx, at + 3, weight, steps_of(colour.z));
     at += 4;
-    if (OPACITY != 0) add(ctx, at, weight * steps_of(colour.w));
+    if (OPACITY != 0) add(ctx, at, weight, steps_of(colour.w));
     at += OPACITY;
     if (NORMAL != 0) {
         const vec3 biased = 0.5f * normal + vec3(0.5f, 0.5f, 0.5f);
-        add(ctx, at, weight * steps_of(biased.x));
-        add(ctx, at + 1, weight * steps_of(biased.y));
-        add(ctx, at + 2, weight * steps_of(biased.z));
+        add(ctx, at, weight, steps_of(biased.x));
+        add(ctx, at + 1, weight, steps_of(biased.y));
+        add(ctx, at + 2, weight, steps_of(biased.z));
     }
     at += 3 * NORMAL;
     if (EMISSION != 0) {
         const vec3 share = emission / (16384.0f * params.emission_unit);
-        add(ctx, at, weight * steps_of(share.x));
-        add(ctx, at + 1, weight * steps_of(share.y));
-        add(ctx, at + 2, weight * steps_of(share.z));
+        add(ctx, at, weight, steps_of(share.x));
+        add(ctx, at + 1, weight, steps_of(share.y));
+        add(ctx, at + 2, weight, steps_of(share.z));
     }
 }
 
@@ -302,7 +306,7 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
         } else if (MERGE == MERGE_LAST_WRITE) {
             write_last(ctx, voxel, paint);
         } else {
-            const uint weight = max(uint(part.w * 65536.0f + 0.5f), 1u);
+            const uint weight = max(uint(part.w * WEIGHT_STEPS + 0.5f), WEIGHT_LEAST);
             add_mean(ctx, voxel, weight, paint, vec3(emission.x, emission.y, emission.z), normal);
         }
 #if LIST

@@ -48,7 +48,7 @@ void add_sets(std::vector<Case>& cases) {
 void add_means(std::vector<Case>& cases) {
   cases.push_back({"", "means of random and degenerate triangles",
                    "colour, coverage, normal and emission follow areas clipped in double (largest error as a share of: m "
-                   "triangles 2^-16 / area, and half a step 2^-14)",
+                   "triangles 2^-19 / area, and half a step 2^-14)",
                    1, [](Context& context) -> Result<double> {
                      const VoxelGrid grid = unit_grid(11);
                      Mesh mesh = awkward_mesh(600, 11, 6);

@@ -78,7 +78,7 @@ const std::vector<truth::Material>& paints() {
 }
 
 double mean_bound(const truth::Voxel& v) {
-  return static_cast<double>(v.triangles.size()) * 0x1p-16 / v.area + 0x1p-15 + 0x1p-20;
+  return static_cast<double>(v.triangles.size()) * 0x1p-19 / v.area + 0x1p-15 + 0x1p-20;
 }
 
 double worst_mean(const Voxels& voxels, const std::vector<truth::Voxel>& truth) {

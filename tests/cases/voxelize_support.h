@@ -36,8 +36,9 @@ double unmatched(const std::vector<std::array<std::uint32_t, 4>>& a, const std::
 const std::vector<truth::Material>& paints();
 constexpr double brightest = 100;
 
-/// How far a mean of values in 0..1 may be off. Weights are rounded to 2^-16 voxel^2 or are the floor of that, so that
-/// with m triangles over an area A it moves by m 2^-16 / A at most; the values by half a step 2^-14; and f32 rounds.
+/// How far a mean of values in 0..1 may be off. A weight is the area to within half a step 2^-22 voxel^2 and what clipping
+/// in f32 rounds (2^-20, coordinates up to 2 grids off), or the floor 2^-16: with m triangles over an area A a mean
+/// moves by m 2^-19 / A at most; the values by half a step 2^-14; and f32 rounds.
 double mean_bound(const truth::Voxel& voxel);
 
 /// Largest error of colour, coverage, normal and emission against the truth, as a share of the bound.
