@@ -16,6 +16,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/mip_build_cases.h"
+#include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
 
 namespace luxel::report {
@@ -64,6 +65,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
   if (settings.wants("voxelize")) {
     append(jobs, voxel_jobs(session));
     append(jobs, stability_jobs(session, cases::voxelize_cases()));
+    append(jobs, stability_jobs(session, cases::voxel_inject_cases()));
   }
   if (settings.wants("cone_trace")) {
     append(jobs, cone_grid(session));
