@@ -5,17 +5,22 @@ FN float sum_of(CTX, int at) { return float_of_64(uvec2(load(sums, at), load(car
 // Never below one step: of unorm8, or of 2^-14, in which opacity is summed.
 FN float at_least_a_step(float coverage) { return max(coverage, UNORM != 0 ? 1.0f / 255.0f : 1.0f / 16384.0f); }
 
+// Whether anything shares in a voxel.
+FN bool touched(CTX, int voxel) {
+    const uint first = load(sums, voxel * params.words);
+    return OF == OF_PACKED ? first >> 24 != 0u : (first | load(carries, voxel * params.words)) != 0u;
+}
+
+// The mean of a voxel that is touched.
 FN vec4 mean_of(CTX, int voxel) {
     const int base = voxel * params.words;
     if (OF == OF_PACKED) {
         const uint bits = load(sums, base);
         const float share = unorm8_value(bits >> 24);
-        if (bits >> 24 == 0u) return vec4(0.0f);
         return vec4(unorm8_value(bits & 255u), unorm8_value((bits >> 8) & 255u), unorm8_value((bits >> 16) & 255u),
                     params.opacity != 0 ? share : 1.0f);
     }
     const float weight = 16384.0f * sum_of(ctx, base);
-    if (weight == 0.0f) return vec4(0.0f);
     const int at = base + (OF == OF_COLOUR ? 1 : params.at);
     const vec3 mean = vec3(sum_of(ctx, at) / weight, sum_of(ctx, at + 1) / weight, sum_of(ctx, at + 2) / weight);
     if (OF == OF_COLOUR)
@@ -41,9 +46,13 @@ FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
     const int row = (int(slot) - 1) * BRICK_VOXELS + linear_of(ivec3(0, y % BRICK, z % BRICK), ivec3(BRICK, BRICK, BRICK));
     uint occupied = 0u;
     for (int x = first_x; x <= last_x; ++x) {
-        const vec4 mean = mean_of(ctx, row + x % BRICK);
-        if (mean.w > 0.0f) ++occupied;
-        store_voxel(dst, extent, ivec3(x, y, z), mean);
+        // Zeros apart: packing them takes no time.
+        if (touched(ctx, row + x % BRICK)) {
+            store_voxel(dst, extent, ivec3(x, y, z), mean_of(ctx, row + x % BRICK));
+            ++occupied;
+        } else {
+            store_voxel(dst, extent, ivec3(x, y, z), vec4(0.0f));
+        }
     }
     if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);
 }
