@@ -96,6 +96,7 @@ Status validate(const ConeTraceParams& p) {
   LUXEL_CHECK(check_range("ConeTraceParams.pattern_x", p.pattern_x, 1, 64));
   LUXEL_CHECK(check_range("ConeTraceParams.pattern_y", p.pattern_y, 1, 64));
   LUXEL_CHECK(check_range("ConeTraceParams.footprint", p.footprint, 0.0625, 1.0));
+  LUXEL_CHECK(check_range("ConeTraceParams.specular_footprint", p.specular_footprint, 0.0625, 1.0));
   LUXEL_CHECK(check_range("ConeTraceParams.step_scale", p.step_scale, 0.0625, 4.0));
   LUXEL_CHECK(check_range("ConeTraceParams.normal_offset", p.normal_offset, 0.0, 64.0));
   LUXEL_CHECK(check_range("ConeTraceParams.start", p.start, 0.0, 64.0));
@@ -194,7 +195,7 @@ class ConeTracing {
            {{"cones", planner_.table(t.rounded, t.exact)}, {"irradiance", irradiance_}});
     }
     if (p_.specular) {
-      const Tables t = spreads(p_.footprint);
+      const Tables t = spreads(p_.specular_footprint);
       pass("specular", true, true, 1,
            {{"spreads", planner_.table(t.rounded, t.exact)}, {"views", views_}, {"specular", specular_}});
     }

@@ -363,6 +363,96 @@ TEST(ConeTrace, IsNearRaysThroughTheVoxels) {
   EXPECT_LE(apart, 0.1);  // of 3 pi at most: what the truth itself is good for, per receiver
 }
 
+// A volume of 512^3, every byte the same, so that all levels are: the furnace holds, or the limit in the way is named.
+TEST(ConeTraceFull, AVolumeOf512RunsOrIsRefusedByItsLimit) {
+  Values receivers;
+  for (int i = 0; i < 64; ++i) add_receiver(receivers, {0.3 + 0.005 * i, 0.5, 0.5}, {0.1, 0.2, 1});
+  const Bytes places = bytes_of(std::vector<float>(receivers.begin(), receivers.end()));
+  for (const Input input : {Input::buffer, Input::image})
+    for (const bool count : {false, true}) {
+      ConeTraceParams p = cone_params(512, ConeVariant::isotropic, Format::unorm8x4);
+      p.width = 64;
+      p.environment = {1, 1, 1};
+      p.input = input;
+      p.count = count;
+      for (const std::string& device : test_devices()) {
+        SCOPED_TRACE(device + (input == Input::image ? " image" : " buffer") + (count ? " counted" : ""));
+        Context& context = test_context(device);
+        const Plan made = plan(p, context.profile()).value();
+        const auto program = context.compile(made);
+        std::vector<Named> named;
+        Status status = program.status();
+        for (const Resource& r : made.resources) {
+          if (!status) break;
+          const auto memory = context.make(r);
+          if (!memory) {
+            status = memory.status();
+            break;
+          }
+          const bool volume = r.name == "fine" || r.name == "coarse";
+          const std::size_t texels = static_cast<std::size_t>(r.extent[0]) * r.extent[1] * r.extent[2];
+          const Bytes content = r.name == "receivers" ? places : Bytes(r.bytes > 0 ? r.bytes : texels * 4, volume ? 128 : 0);
+          ASSERT_TRUE(context.upload(*memory.value(), content.data(), content.size()));
+          named.push_back({r.name, memory.value()});
+        }
+        if (status) status = context.run(*program.value(), named);
+        if (!status) {
+          EXPECT_TRUE(status.code() == Code::unsupported || status.code() == Code::invalid_argument ||
+                      status.code() == Code::out_of_memory)
+              << name(status.code());
+          EXPECT_NE(status.message().find("needs"), std::string::npos) << status.message();
+          continue;
+        }
+        for (const Named& n : named) {
+          if (n.name != "irradiance") continue;
+          std::vector<float> e(64 * 4);
+          ASSERT_TRUE(context.download(*n.memory, e.data(), e.size() * 4));
+          for (int i = 0; i < 64; ++i) EXPECT_NEAR(e[i * 4] / pi, 1, 1e-6) << i;
+        }
+        for (const std::string& message : context.validation_messages()) ADD_FAILURE() << message;
+      }
+    }
+}
+
+// One cone against rays all over the lobe's cap, mirrored into from a place in front of a box with a lamp.
+TEST(ConeTrace, SpecularIsNearRaysThroughItsCap) {
+  constexpr int n = 32;
+  Values box;
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const bool wall = x < 2 || x >= n - 2 || y < 2 || y >= n - 2 || z >= n - 2;
+        const double l = y >= n - 2 ? 0.9 : x < 2 ? 0.5 : 0.2;
+        box.insert(box.end(), {wall ? l : 0, wall ? 0.3 : 0, wall ? 0.2 : 0, wall ? 1.0 : 0});
+      }
+  ConeTraceParams p = cone_params(n, ConeVariant::anisotropic);
+  p.radiance = p.occlusion = false;
+  p.specular = true;
+  p.environment = {0.2, 0.3, 0.4};
+  for (const double roughness : {0.1, 0.3, 0.5}) {
+    Values receivers, views, expected;
+    for (int i = 0; i < 49; ++i) {
+      const std::array<double, 3> at{0.15 + 0.1 * (i % 7), 0.15 + 0.1 * (i / 7), 1 - 2.0 / n}, normal{0, 0, -1};
+      const std::array<double, 3> to_eye{0.5 - at[0], 0.6 - at[1], -0.2 - at[2]};
+      add_receiver(receivers, at, normal, roughness);
+      views.insert(views.end(), {to_eye[0], to_eye[1], to_eye[2], 0});
+      const auto seen = truth::cap(p, {p.extent, box}, at, normal, {-to_eye[0], -to_eye[1], to_eye[2]},
+                                   specular_aperture(roughness), 2048);
+      expected.insert(expected.end(), seen.begin(), seen.end());
+    }
+    p.width = 49;
+    const auto r = trace(test_context("cpu:double"), p, box, receivers, views);
+    ASSERT_TRUE(r) << r.status().message();
+    double squares = 0, mean = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (i % 4 != 3) {
+        squares += (r.value().specular[i] - expected[i]) * (r.value().specular[i] - expected[i]) / 147;
+        mean += expected[i] / 147;
+      }
+    EXPECT_LE(std::sqrt(squares) / mean, 0.09) << roughness;  // measured .05, .07, .04: one cone for a whole lobe
+  }
+}
+
 TEST(ConeTrace, RefusesWhatIsOutOfRange) {
   ConeTraceParams p = cone_params(16);
   EXPECT_TRUE(validate(p).ok());

@@ -65,6 +65,7 @@ struct ConeTraceParams {
                                      // (Crassin 2011) a trilinear look-up is wider than the cone, and hides a floor from
                                      // itself; at 1/2 it has the variance of the cone's disc;
                                      // at 1/4 most errors against rays through the voxels were least (README)
+  double specular_footprint = 0.4;   // the same for the specular cone, which stands for a whole lobe, 1/16..1
   double step_scale = 1;             // step along the axis, in such voxels (but at least that part of a finest one), 1/16..4
   double normal_offset = 1;          // cones start this many voxels above the surface, 0..64
   double start = 0;                  // and gather from here on, voxels along the axis, 0..64

@@ -57,7 +57,7 @@ bool same(const ConeTraceParams& a, const ConeTraceParams& b) {
   return a.width == b.width && a.height == b.height && a.extent == b.extent && a.levels == b.levels &&
          a.variant == b.variant && a.format == b.format && a.input == b.input && a.origin == b.origin &&
          a.voxel == b.voxel && a.pattern_x == b.pattern_x && a.pattern_y == b.pattern_y &&
-         a.footprint == b.footprint && a.step_scale == b.step_scale && a.normal_offset == b.normal_offset && a.start == b.start &&
+         a.footprint == b.footprint && a.specular_footprint == b.specular_footprint && a.step_scale == b.step_scale && a.normal_offset == b.normal_offset && a.start == b.start &&
          a.max_distance == b.max_distance && a.gamma == b.gamma && a.environment == b.environment &&
          a.error == b.error && a.radiance_max == b.radiance_max && a.max_steps == b.max_steps &&
          a.radiance == b.radiance && a.occlusion == b.occlusion && a.specular == b.specular &&
