@@ -84,7 +84,8 @@ TEST(VoxelScene, AFurnaceLosesAtMostWhatInterpolatedWallsLeakAtEveryResolution) 
       EXPECT_GE(mean_red(seen.light.indirect) / std::numbers::pi, least * least / 2) << device << " " << resolution;
       EXPECT_LE(mean_red(seen.light.indirect) / std::numbers::pi, 0.5) << device << " " << resolution;
     }
-    EXPECT_NEAR(direct.front(), direct.back(), 0.01) << device << ": brightness depends on the resolution";
+    // What leaks depends on where a cone's level changes inside a wall: by half of e^-2 at most.
+    EXPECT_NEAR(direct.front(), direct.back(), std::exp(-2.0) / 2) << device << ": brightness by resolution";
   }
 }
 
