@@ -7,7 +7,7 @@
 #include <numbers>
 #include <limits>
 
-#include "tests/support/run.h"
+#include "tests/support/pyramid.h"
 
 namespace luxel {
 namespace {
@@ -54,13 +54,6 @@ struct Grid {
     return p;
   }
 };
-
-// The float that a hash of `i` gives, 0..1.
-float uniform(std::uint32_t i) {
-  i = (i ^ (i >> 16)) * 0x7feb352du;
-  i = (i ^ (i >> 15)) * 0x846ca68bu;
-  return static_cast<float>((i ^ (i >> 16)) >> 8) / 16777216.0f;
-}
 
 std::vector<Bytes> inject(const std::string& device, const Grid& g, const VoxelInjectParams& p,
                           const std::vector<float>& light, const Bytes& before = {}) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/scene/images.h"
 #include "tests/cases/compare.h"
 #include "tests/cases/run.h"
 
@@ -17,11 +18,7 @@ namespace {
 using Vec = std::array<double, 3>;
 using Values = std::vector<double>;
 
-double uniform(std::uint32_t i) {
-  i = (i ^ (i >> 16)) * 0x7feb352du;
-  i = (i ^ (i >> 15)) * 0x846ca68bu;
-  return static_cast<double>((i ^ (i >> 16)) >> 8) / 16777216.0;
-}
+double uniform(std::uint32_t i) { return (scene::hash(i) >> 8) * 0x1p-24; }
 
 Vec unit(Vec v) {
   const double length = std::hypot(v[0], v[1], v[2]);
