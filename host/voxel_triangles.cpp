@@ -13,13 +13,15 @@ namespace {
 using Point = std::array<double, 5>;         // voxels; u, v
 using Corner = std::array<std::int32_t, 3>;  // 2^-16 voxel
 constexpr int unit = 65536;
+constexpr int world = 8192;  // voxels on each side of the origin that windows may reach
+using Box = std::array<std::array<double, 2>, 3>;  // low and high along each axis
 
-// Sutherland and Hodgman, Reentrant Polygon Clipping (1974), at the sides of a cube. The crossing of an edge is computed
+// Sutherland and Hodgman, Reentrant Polygon Clipping (1974), at the sides of a box. The crossing of an edge is computed
 // from its lesser end, so that two triangles get the same point where they share the edge.
-std::vector<Point> clip(std::vector<Point> polygon, double low, double high) {
+std::vector<Point> clip(std::vector<Point> polygon, const Box& box) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const bool upper : {false, true}) {
-      const double bound = upper ? high : low;
+      const double bound = box[axis][upper];
       const auto inside = [&](const Point& p) { return upper ? p[axis] <= bound : p[axis] >= bound; };
       std::vector<Point> kept;
       for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -47,9 +49,20 @@ class Builder {
  public:
   Builder(const VoxelGrid& grid, bool textured, VoxelTriangles& out)
       : extent_{grid.width, grid.height, grid.depth}, textured_(textured), out_(out), marks_(cells(8)) {
-    const double largest = std::max({grid.width, grid.height, grid.depth});
-    low_ = -2 * largest;
-    high_ = 3 * largest;
+    largest_ = std::max({grid.width, grid.height, grid.depth});
+    low_ = -2 * largest_;
+    high_ = 3 * largest_;
+  }
+
+  // For windows: a grid of the whole world, whose triangles are never longer than a window. Records count from its middle.
+  static Builder of_windows(const VoxelGrid& grid, bool textured, VoxelTriangles& out) {
+    Builder builder({}, textured, out);
+    builder.extent_ = {2 * world, 2 * world, 2 * world};
+    builder.largest_ = std::max({grid.width, grid.height, grid.depth});
+    builder.low_ = 0;
+    builder.high_ = 2 * world;
+    builder.middle_ = world;
+    return builder;
   }
 
   bool far(const Point& p) const {
@@ -67,16 +80,72 @@ class Builder {
     std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     const bool turned = polygon[2] < polygon[1];
     if (turned) std::swap(polygon[1], polygon[2]);
-    polygon = clip(std::move(polygon), low_, high_);
+    polygon = clip(std::move(polygon), {{{low_, high_}, {low_, high_}, {low_, high_}}});
+    ++(fan(polygon, turned, material, index) ? out_.clipped : out_.outside);
+  }
+
+  // The same, cut at the sides of cubes as long as a window where it is longer than that.
+  void world_triangle(const std::array<Point, 3>& corners, std::uint32_t material, std::size_t index) {
+    Box bounds;
+    bool longer = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      bounds[k] = {std::min({corners[0][k], corners[1][k], corners[2][k]}),
+                   std::max({corners[0][k], corners[1][k], corners[2][k]})};
+      longer = longer || bounds[k][1] - bounds[k][0] > largest_ || bounds[k][0] < low_ || bounds[k][1] > high_;
+    }
+    if (!longer) {
+      if (!record(corners, material, index)) ++out_.outside;
+      return;
+    }
+    std::vector<Point> polygon(corners.begin(), corners.end());
+    std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+    const bool turned = polygon[2] < polygon[1];
+    if (turned) std::swap(polygon[1], polygon[2]);
+    std::array<int, 3> first, last;
+    const int cubes = static_cast<int>(std::ceil(2 * world / largest_));
+    for (std::size_t k = 0; k < 3; ++k) {
+      first[k] = static_cast<int>(std::clamp(std::floor(bounds[k][0] / largest_), 0.0, cubes - 1.0));
+      last[k] = static_cast<int>(std::clamp(std::floor(bounds[k][1] / largest_), 0.0, cubes - 1.0));
+    }
+    const auto side = [&](int cube) { return std::min<double>(cube * largest_, 2 * world); };
     bool kept = false;
-    for (std::size_t i = 2; i < polygon.size(); ++i) {
-      const Point &a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
-      kept |= record(turned ? std::array<Point, 3>{a, c, b} : std::array<Point, 3>{a, b, c}, material, index);
+    for (int z = first[2]; z <= last[2]; ++z) {
+      const std::vector<Point> slice = clip(polygon, {{{low_, high_}, {low_, high_}, {side(z), side(z + 1)}}});
+      for (int y = first[1]; y <= last[1] && !slice.empty(); ++y) {
+        const std::vector<Point> row =
+            clip(slice, {{{low_, high_}, {side(y), side(y + 1)}, {side(z), side(z + 1)}}});
+        for (int x = first[0]; x <= last[0] && !row.empty(); ++x) {
+          const Box cube{{{side(x), side(x + 1)}, {side(y), side(y + 1)}, {side(z), side(z + 1)}}};
+          const std::vector<Point> part = clip(row, cube);
+          if (!part.empty() && !of_neighbour(part, cube, bounds)) kept |= fan(part, turned, material, index);
+        }
+      }
     }
     ++(kept ? out_.clipped : out_.outside);
   }
 
  private:
+  bool fan(const std::vector<Point>& polygon, bool turned, std::uint32_t material, std::size_t index) {
+    bool kept = false;
+    for (std::size_t i = 2; i < polygon.size(); ++i) {
+      const Point &a = polygon[0], &b = polygon[i - 1], &c = polygon[i];
+      kept |= record(turned ? std::array<Point, 3>{a, c, b} : std::array<Point, 3>{a, b, c}, material, index);
+    }
+    return kept;
+  }
+
+  // Whether a part lies in a side of its cube that it shares with another, which has it: so that nothing counts twice.
+  bool of_neighbour(const std::vector<Point>& part, const Box& cube, const Box& bounds) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto all_at = [&](double side) {
+        return std::all_of(part.begin(), part.end(), [&](const Point& p) { return p[k] == side; });
+      };
+      if (cube[k][1] < high_ && all_at(cube[k][1])) return true;
+      if (bounds[k][0] < cube[k][0] && all_at(cube[k][0])) return true;
+    }
+    return false;
+  }
+
   std::size_t cells(int side) const {
     std::size_t n = 1;
     for (const int e : extent_) n *= static_cast<std::size_t>((e + side - 1) / side);
@@ -105,12 +174,14 @@ class Builder {
     if (textured_)
       for (const std::size_t i : order)
         for (const std::size_t k : {3u, 4u}) out_.uvs.push_back(static_cast<float>(corners[i][k]));
-    for (const Corner& corner : v) out_.records.insert(out_.records.end(), corner.begin(), corner.end());
+    for (const Corner& corner : v)
+      for (const std::int32_t at : corner) out_.records.push_back(at - middle_ * unit);
     out_.records.insert(out_.records.end(),
                         {static_cast<std::int32_t>(material), static_cast<std::int32_t>(index), turned});
     ++out_.count;
-    out_.blocks += count(v, low, high, 64, false);
-    out_.pieces += count(v, low, high, 8, true);
+    out_.pieces += count(v, low, high, 8, middle_ == 0);
+    // A window's blocks begin at any brick: there are never more than pieces.
+    out_.blocks = middle_ == 0 ? out_.blocks + count(v, low, high, 64, false) : out_.pieces;
     out_.bricks = marked_;
     return true;
   }
@@ -154,17 +225,20 @@ class Builder {
     return found;
   }
 
-  const std::array<int, 3> extent_;
+  std::array<int, 3> extent_;
   const bool textured_;
   VoxelTriangles& out_;
-  double low_ = 0, high_ = 0;
+  double low_ = 0, high_ = 0, largest_ = 0;
+  int middle_ = 0;
   std::vector<char> marks_;
   std::size_t marked_ = 0;
 };
 
 }  // namespace
 
-Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& grid) {
+namespace {
+
+Result<VoxelTriangles> triangles_of(const VoxelMesh& mesh, const VoxelGrid& grid, bool windows) {
   for (const double o : grid.origin)
     if (!std::isfinite(o)) return out_of_range("VoxelGrid.origin", o, "finite numbers");
   if (!(grid.voxel > 0 && std::isfinite(grid.voxel)))
@@ -179,7 +253,8 @@ Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& g
     return Status(Code::invalid_argument, "VoxelMesh.positions is null; expected three numbers for each vertex");
 
   VoxelTriangles out;
-  Builder builder(grid, mesh.uvs != nullptr, out);
+  const bool textured = mesh.uvs != nullptr;
+  Builder builder = windows ? Builder::of_windows(grid, textured, out) : Builder(grid, textured, out);
   out.records.reserve(mesh.triangles * 12);
   for (std::size_t t = 0; t < mesh.triangles; ++t) {
     const std::uint32_t* index = mesh.indices + 3 * t;
@@ -193,6 +268,7 @@ Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& g
       for (std::size_t k = 0; k < 3; ++k) {
         corners[i][k] = (mesh.positions[3 * std::size_t{index[i]} + k] - grid.origin[k]) / grid.voxel;
         finite = finite && std::fabs(corners[i][k]) <= 1e150;  // so that differences and products are finite too
+        if (windows) corners[i][k] += world;
       }
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -201,10 +277,22 @@ Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& g
       }
     if (!finite)
       ++out.not_finite;
+    else if (windows)
+      builder.world_triangle(corners, mesh.materials ? mesh.materials[t] : 0, t);
     else
       builder.triangle(corners, mesh.materials ? mesh.materials[t] : 0, t);
   }
   return out;
+}
+
+}  // namespace
+
+Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& grid) {
+  return triangles_of(mesh, grid, false);
+}
+
+Result<VoxelTriangles> window_triangles(const VoxelMesh& mesh, const VoxelGrid& grid) {
+  return triangles_of(mesh, grid, true);
 }
 
 }  // namespace luxel

@@ -45,12 +45,39 @@ std::array<int, 3> last_of(const VoxelizeParams& p) {
   return last;
 }
 
+// First voxel of the grid that the passes work in, as triangles count them: bricks lie alike whatever the window.
+std::array<int, 3> base_of(const VoxelizeParams& p) {
+  std::array<int, 3> base{0, 0, 0};
+  if (p.toroidal)
+    for (std::size_t k = 0; k < 3; ++k) base[k] = p.window[k] - (p.window[k] % brick + brick) % brick;
+  return base;
+}
+
+// That grid, and the region in it.
+VoxelizeParams aligned(VoxelizeParams p) {
+  p.last = last_of(p);
+  if (!p.toroidal) return p;
+  const std::array<int, 3> base = base_of(p);
+  for (std::size_t k = 0; k < 3; ++k) {
+    p.first[k] += p.window[k] - base[k];
+    p.last[k] += p.window[k] - base[k];
+  }
+  p.width += brick;
+  p.height += brick;
+  p.depth += brick;
+  return p;
+}
+
 // Parameters that several parts have: the grid, and the region of it.
 Planner::Values grid_values(const VoxelizeParams& p) {
   const std::array<int, 3> last = last_of(p);
   return {{"width", p.width},      {"height", p.height},    {"depth", p.depth},
           {"first_x", p.first[0]}, {"first_y", p.first[1]}, {"first_z", p.first[2]},
           {"last_x", last[0]},     {"last_y", last[1]},     {"last_z", last[2]}};
+}
+Planner::Values base_values(const VoxelizeParams& p) {
+  const std::array<int, 3> base = base_of(p);
+  return {{"base_x", base[0]}, {"base_y", base[1]}, {"base_z", base[2]}};
 }
 Planner::Values operator+(Planner::Values a, const Planner::Values& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -67,10 +94,28 @@ int stride(std::array<std::uint32_t, 3> invocations) {
 
 }  // namespace
 
+namespace {
+
+Status check_window(const VoxelizeParams& p) {
+  constexpr const char* fields[] = {"VoxelizeParams.width", "VoxelizeParams.height", "VoxelizeParams.depth"};
+  const int extent[] = {p.width, p.height, p.depth};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (extent[k] % brick != 0 || extent[k] > 2040)
+      return out_of_range(fields[k], extent[k], "multiples of 8 up to 2040 with toroidal");
+    LUXEL_CHECK(check_range("VoxelizeParams.window", p.window[k], -8192, 8192 - extent[k]));
+  }
+  if (p.device_vertices) return out_of_range("VoxelizeParams.toroidal", "true", "false with device_vertices");
+  if (p.fragments > 0) return out_of_range("VoxelizeParams.fragments", p.fragments, "0 with toroidal");
+  return {};
+}
+
+}  // namespace
+
 Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.width", p.width, 1, 2048));
   LUXEL_CHECK(check_range("VoxelizeParams.height", p.height, 1, 2048));
   LUXEL_CHECK(check_range("VoxelizeParams.depth", p.depth, 1, 2048));
+  if (p.toroidal) LUXEL_CHECK(check_window(p));
   const int extent[] = {p.width, p.height, p.depth};
   for (std::size_t k = 0; k < 3; ++k) {
     LUXEL_CHECK(check_range("VoxelizeParams.first", p.first[k], 0, extent[k] - 1));
@@ -104,7 +149,7 @@ Status validate(const VoxelizeParams& p) {
     return out_of_range("VoxelizeParams.device_materials", "true", "false without device_vertices");
   if (static_cast<double>(p.width) * p.height * p.depth > 0x7fffffff)
     return out_of_range("VoxelizeParams.depth", p.depth, "width x height x depth of at most 2147483647");
-  const std::int64_t bricks = capacities(p).bricks;
+  const std::int64_t bricks = capacities(aligned(p)).bricks;
   if (bricks * brick_voxels * words(p) > 0x7fffffff)
     return out_of_range("VoxelizeParams.bricks", p.bricks,
                         "at most " + std::to_string(0x7fffffff / (brick_voxels * words(p))) +
@@ -117,7 +162,12 @@ namespace {
 class Voxelization {
  public:
   Voxelization(const VoxelizeParams& params, const Profile& profile)
-      : p_(params), profile_(profile), room_(capacities(params)), words_(words(params)), planner_("voxelize") {}
+      : p_(aligned(params)),
+        stored_{params.width, params.height, params.depth},
+        profile_(profile),
+        room_(capacities(p_)),
+        words_(words(params)),
+        planner_("voxelize") {}
 
   Result<Plan> plan() && {
     const std::size_t bricks = static_cast<std::size_t>(cells(p_, brick));
@@ -142,7 +192,7 @@ class Voxelization {
       for (const double v : table) rounded.push_back(static_cast<float>(v));
       srgb_ = planner_.table(rounded, table);
     }
-    const std::size_t voxels = static_cast<std::size_t>(p_.width) * p_.height * p_.depth;
+    const std::size_t voxels = static_cast<std::size_t>(stored_[0]) * stored_[1] * stored_[2];
     colour_ = resource("colour", p_.format, voxels, true);
     if (p_.normal) normal_ = resource("normal", p_.format, voxels, true);
     if (p_.emission) emission_ = resource("emission", p_.format, voxels, true);
@@ -211,7 +261,7 @@ class Voxelization {
   void refine() {
     const auto roots = launch(p_.triangles);
     const bool twice = cells(p_, block) > 1;
-    const Planner::Values from_triangles = grid_values(p_) + Planner::Values{
+    const Planner::Values from_triangles = grid_values(p_) + base_values(p_) + Planner::Values{
         {"parents", p_.triangles},
         {"capacity", twice ? room_.blocks : room_.pieces},
         {"counter", twice ? count_blocks : count_pieces},
@@ -230,7 +280,7 @@ class Voxelization {
     planner_.pass("voxelize_refine", "root_blocks", "voxelize blocks of triangles", roots, line, from_triangles,
                   {{"SIDE", block}}, first);
     const auto parents = launch(room_.blocks);
-    const Planner::Values from_blocks = grid_values(p_) + Planner::Values{{"parents", room_.blocks},
+    const Planner::Values from_blocks = grid_values(p_) + base_values(p_) + Planner::Values{{"parents", room_.blocks},
                                                                           {"capacity", room_.pieces},
                                                                           {"counter", count_pieces},
                                                                           {"stride", stride(parents)}};
@@ -270,7 +320,7 @@ class Voxelization {
     const char* const module = p_.texels > 0 ? p_.fragments > 0 ? "textured_list" : "textured"
                                              : p_.fragments > 0 ? "list" : "plain";
     planner_.pass("voxelize", module, "voxelize", pieces, line,
-                  grid_values(p_) + Planner::Values{{"materials", p_.materials},
+                  grid_values(p_) + base_values(p_) + Planner::Values{{"materials", p_.materials},
                                                     {"capacity", room_.pieces},
                                                     {"fragments", p_.fragments},
                                                     {"emission_unit", emission_unit()},
@@ -300,7 +350,13 @@ class Voxelization {
     if (p_.touched_only) invocations = launch(std::int64_t{room_.bricks} * brick * brick);
     planner_.pass("voxelize_resolve", name(p_.format), labels[of], invocations,
                   p_.touched_only ? line : profile_.voxels.workgroup,
-                  grid_values(p_) + Planner::Values{{"words", words_},
+                  grid_values(p_) + Planner::Values{{"stored_x", stored_[0]},
+                                                    {"stored_y", stored_[1]},
+                                                    {"stored_z", stored_[2]},
+                                                    {"turn_x", turn(0)},
+                                                    {"turn_y", turn(1)},
+                                                    {"turn_z", turn(2)},
+                                                    {"words", words_},
                                                     {"at", at},
                                                     {"emission_unit", emission_unit()},
                                                     {"capacity", room_.bricks},
@@ -324,7 +380,14 @@ class Voxelization {
 
   double emission_unit() const { return p_.emission_max / 16384; }
 
-  const VoxelizeParams& p_;
+  // Where the grid's first voxel lies in the volumes.
+  int turn(std::size_t axis) const {
+    const int n = stored_[axis];
+    return (base_of(p_)[axis] % n + n) % n;
+  }
+
+  const VoxelizeParams p_;
+  const std::array<int, 3> stored_;
   const Profile& profile_;
   const Capacities room_;
   const int words_;
@@ -349,7 +412,7 @@ VoxelizeParams voxelize_params(const VoxelGrid& grid, const VoxelTriangles& tria
   p.triangles = static_cast<int>(triangles.count);
   p.blocks = static_cast<int>(std::max<std::size_t>(triangles.blocks, 1));
   p.pieces = static_cast<int>(std::max<std::size_t>(triangles.pieces, 1));
-  p.bricks = static_cast<int>(std::max<std::size_t>(triangles.bricks, 1));
+  p.bricks = triangles.count > 0 ? static_cast<int>(triangles.bricks) : 1;
   p.origin = grid.origin;
   p.voxel = grid.voxel;
   return p;

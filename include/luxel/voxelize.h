@@ -49,6 +49,13 @@ struct VoxelTriangles {
 /// Errors: invalid_argument, naming field, value and range.
 Result<VoxelTriangles> voxel_triangles(const VoxelMesh& mesh, const VoxelGrid& grid);
 
+/// Triangles for a window that moves (VoxelizeParams::toroidal): records in voxels from the grid's origin, the same wherever
+/// the window stands, so that they are made once. Extents are the window's. Triangles longer than a window are cut there
+/// into cubes as long as the window, in double; what lies beyond 8192 voxels from the origin is left out (`outside`,
+/// `clipped`). `blocks` and `pieces` suffice for every window; `bricks` is 0: all of the grid. Pure; needs no device.
+/// Errors: as voxel_triangles.
+Result<VoxelTriangles> window_triangles(const VoxelMesh& mesh, const VoxelGrid& grid);
+
 /// How texture coordinates outside 0..1 are taken.
 enum class VoxelWrap { repeat, clamp, mirror };
 
@@ -91,6 +98,10 @@ struct VoxelizeParams {
   int depth = 0;                 // 1..2048
   std::array<int, 3> first{0, 0, 0};      // the region that is made, first and last voxel: what lies outside keeps what the
   std::array<int, 3> last{-1, -1, -1};    // volumes hold; -1: to the end
+  bool toroidal = false;        // the grid is a window in a world of voxels, its volumes are addressed modulo their extents:
+                                // voxel v of the world lies at v mod extent. Extents: multiples of 8, 8..2040; triangles:
+                                // window_triangles(). `first` and `last` count from the window's first voxel
+  std::array<int, 3> window{0, 0, 0};  // that voxel, voxels from the origin of the triangles' grid, -8192..8192 - extent
   bool touched_only = false;    // volumes are written in touched bricks only; elsewhere they keep what they hold
   VoxelizeMode mode = VoxelizeMode::conservative;
   VoxelizeMerging merging = VoxelizeMerging::exact;
@@ -133,7 +144,8 @@ enum class VoxelizeCount {
 /// opacity 0..1, emission and an unused channel, material after material); written `colour` (straight base colour and
 /// coverage, [z][y][x]; occupied where coverage is above 0), `normal` (mean of unit normals, its length carries the
 /// spread; unorm8: n/2 + 1/2) and `emission` where asked for, `bricks` (u32: touched bricks in ascending order, x + (y + z
-/// bricks_y) bricks_x; as many as `counters` says), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
+/// bricks_y) bricks_x; as many as `counters` says; toroidal: of a grid that begins at the
+/// multiples of 8 voxels below the window and is 8 voxels larger), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
 /// asked for, `counters` (16 u32, see VoxelizeCount). With textures: `uvs` (f32x1), `texture_table` (u32, 8 words for each
 /// material) and `texels` (u32), sampled at the centroid of the triangle's part in the voxel. With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
 /// z of each vertex), `indices` (u32, three a triangle) and `triangle_materials` (u32). Coverage is the opacity's mean, never below a step of unorm8 or of
@@ -142,6 +154,11 @@ Status validate(const VoxelizeParams& params);
 
 /// The passes that voxelize with these parameters on a device of this profile.
 Result<Plan> plan(const VoxelizeParams& params, const Profile& profile);
+
+/// What a window that moved from `from` to params.window needs anew: at most three regions that do not overlap, none where
+/// it did not move, the whole window where nothing of it is left. Each is a plan of its own; after them the volumes hold,
+/// bit for bit, what voxelizing the window anew gives. `params`: valid, toroidal, its own region is left out of account.
+std::vector<VoxelizeParams> voxelize_move(const VoxelizeParams& params, const std::array<int, 3>& from);
 
 /// Parameters for triangles in a grid: extents and capacities filled in, `fragments` left 0.
 VoxelizeParams voxelize_params(const VoxelGrid& grid, const VoxelTriangles& triangles);

@@ -80,6 +80,37 @@ FN float plane_slack(vec3 p, vec3 e, vec3 f, float span) {
     return 1.9073486328125e-6f * (n.x * (abs(p.x) + span) + n.y * (abs(p.y) + span) + n.z * (abs(p.z) + span));
 }
 
+// Declares what meets_roughly() takes of the triangle with corners a, b, c (voxels from a corner near the boxes) and edges
+// ab, bc, ca: la, lb, ld, lw, plane and slack.
+#define ROUGH_TRIANGLE(span) \
+    vec4 la[3]; \
+    vec4 lb[3]; \
+    vec4 ld[3]; \
+    vec4 lw[3]; \
+    UNROLL for (int axis = 0; axis < 3; ++axis) { \
+        vec4 px = across(a, b, c, axis); \
+        vec4 py = upward(a, b, c, axis); \
+        vec4 ex = across(ab, bc, ca, axis); \
+        vec4 ey = upward(ab, bc, ca, axis); \
+        const vec4 view = view_of(px, py, ex, ey); \
+        if (view.x == 0.0f) { \
+            const vec4 sides = both_ways(ex, ey, view); \
+            ey = both_ways(ey, ex, view); \
+            ex = sides; \
+            px = twice_of(px, view); \
+            py = twice_of(py, view); \
+        } else { \
+            ex = view.x * ex; \
+            ey = view.x * ey; \
+        } \
+        la[axis] = -ey; \
+        lb[axis] = ex; \
+        ld[axis] = line_offset(px, py, ex, ey); \
+        lw[axis] = line_slack(px, py, ex, ey, span, view); \
+    } \
+    const vec4 plane = rough_plane(a, ab, bc); \
+    const float slack = plane_slack(a, ab, bc, span);
+
 #define ROUGH_NO -1
 #define ROUGH_YES 1
 #define ROUGH_UNDECIDED 0

@@ -10,7 +10,8 @@
 
 FN ivec3 vertex(CTX, int t, int i) {
     const int at = t * TRIANGLE_WORDS + 3 * i;
-    return ivec3(load(triangles, at), load(triangles, at + 1), load(triangles, at + 2));
+    return ivec3(load(triangles, at), load(triangles, at + 1), load(triangles, at + 2)) -
+           65536 * ivec3(params.base_x, params.base_y, params.base_z);
 }
 
 FN int dominant_axis(vec3 n) {
@@ -220,33 +221,7 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     const vec3 ab = voxels_of(v1 - v0);
     const vec3 bc = voxels_of(v2 - v1);
     const vec3 ca = voxels_of(v0 - v2);
-    vec4 la[3];
-    vec4 lb[3];
-    vec4 ld[3];
-    vec4 lw[3];
-    UNROLL for (int axis = 0; axis < 3; ++axis) {
-        vec4 px = across(a, b, c, axis);
-        vec4 py = upward(a, b, c, axis);
-        vec4 ex = across(ab, bc, ca, axis);
-        vec4 ey = upward(ab, bc, ca, axis);
-        const vec4 view = view_of(px, py, ex, ey);
-        if (view.x == 0.0f) {
-            const vec4 sides = both_ways(ex, ey, view);
-            ey = both_ways(ey, ex, view);
-            ex = sides;
-            px = twice_of(px, view);
-            py = twice_of(py, view);
-        } else {
-            ex = view.x * ex;
-            ey = view.x * ey;
-        }
-        la[axis] = -ey;
-        lb[axis] = ex;
-        ld[axis] = line_offset(px, py, ex, ey);
-        lw[axis] = line_slack(px, py, ex, ey, 8.0f, view);
-    }
-    const vec4 plane = rough_plane(a, ab, bc);
-    const float slack = plane_slack(a, ab, bc, 8.0f);
+    ROUGH_TRIANGLE(8.0f)
 
     // The normal, where something needs it: from the integers, so that slivers have one.
     vec3 rough = vec3(0.0f, 0.0f, 0.0f);

@@ -15,6 +15,9 @@
     _(int, width)            /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, base_x)           /* first voxel of the grid, as triangles count them */ \
+    _(int, base_y) \
+    _(int, base_z) \
     _(int, first_x)          /* the region of the grid that is made */ \
     _(int, first_y) \
     _(int, first_z) \

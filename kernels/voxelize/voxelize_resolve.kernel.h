@@ -34,13 +34,17 @@ FN vec4 mean_of(CTX, int voxel) {
     return vec4(scale * mean.x, scale * mean.y, scale * mean.z, 0.0f);
 }
 
+FN void put(CTX, ivec3 p, vec4 v) {
+    const ivec3 stored = ivec3(params.stored_x, params.stored_y, params.stored_z);
+    store_voxel(dst, stored, torus(p + ivec3(params.turn_x, params.turn_y, params.turn_z), stored), v);
+}
+
 // Of row (y, z) of the grid, the voxels that lie in a brick of a slot (0: none) and in the region.
 FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
-    const ivec3 extent = ivec3(params.width, params.height, params.depth);
     const int first_x = max(brick_x * BRICK, params.first_x);
     const int last_x = min(brick_x * BRICK + (BRICK - 1), params.last_x);
     if (slot == 0u) {
-        for (int x = first_x; x <= last_x; ++x) store_voxel(dst, extent, ivec3(x, y, z), vec4(0.0f));
+        for (int x = first_x; x <= last_x; ++x) put(ctx, ivec3(x, y, z), vec4(0.0f));
         return;
     }
     const int row = (int(slot) - 1) * BRICK_VOXELS + linear_of(ivec3(0, y % BRICK, z % BRICK), ivec3(BRICK, BRICK, BRICK));
@@ -48,10 +52,10 @@ FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
     for (int x = first_x; x <= last_x; ++x) {
         // Zeros apart: packing them takes no time.
         if (touched(ctx, row + x % BRICK)) {
-            store_voxel(dst, extent, ivec3(x, y, z), mean_of(ctx, row + x % BRICK));
+            put(ctx, ivec3(x, y, z), mean_of(ctx, row + x % BRICK));
             ++occupied;
         } else {
-            store_voxel(dst, extent, ivec3(x, y, z), vec4(0.0f));
+            put(ctx, ivec3(x, y, z), vec4(0.0f));
         }
     }
     if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);

@@ -1,5 +1,5 @@
 /* BUILD
-   math: wide_int voxel_grid
+   math: wide_int voxel_grid torus
    module f32x4: PIXEL=f32x4 UNORM=0
    module f16x4: PIXEL=f16x4 UNORM=0
    module unorm8x4: PIXEL=unorm8x4 UNORM=1
@@ -12,6 +12,12 @@
     _(int, width)            /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, stored_x)         /* voxels of the volume, which may be a torus */ \
+    _(int, stored_y) \
+    _(int, stored_z) \
+    _(int, turn_x)           /* where the grid's first voxel lies in it */ \
+    _(int, turn_y) \
+    _(int, turn_z) \
     _(int, first_x)          /* the region of the grid that is made */ \
     _(int, first_y) \
     _(int, first_z) \
