@@ -20,7 +20,13 @@ class Planner {
   /// A table: what the float executions read (each value a float), and what the double execution reads.
   Slot table(std::vector<double> rounded, std::vector<double> exact);
 
-  struct Values : std::vector<std::pair<std::string_view, double>> { using vector::vector; };
+  struct Values : std::vector<std::pair<std::string_view, double>> {
+    using vector::vector;
+    friend Values operator+(Values a, const Values& b) {
+      a.insert(a.end(), b.begin(), b.end());
+      return a;
+    }
+  };
   /// Adds a pass over `invocations` (x, y, z), rounded up to whole workgroups. Every parameter, constant and slot of the
   /// module is named once; constants may be left at their fallback.
   void pass(std::string_view part, std::string_view module, std::string label, std::array<std::uint32_t, 3> invocations,

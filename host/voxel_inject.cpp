@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "host/check.h"
 #include "host/planner.h"
@@ -17,7 +18,7 @@ constexpr double steps = 16384;           // of irradiance_max, as kernels/voxel
 constexpr std::uint32_t strided = 65536;  // invocations of passes that stride over their work
 
 std::size_t bricks_of(const VoxelInjectParams& p) {
-  const auto along = [](int n) { return static_cast<std::size_t>((n + brick_side - 1) / brick_side); };
+  const auto along = [&](int n) { return static_cast<std::size_t>((n + brick_side - 1) / brick_side + p.toroidal); };
   return along(p.width) * along(p.height) * along(p.depth);
 }
 
@@ -26,6 +27,13 @@ std::size_t voxels_of(const VoxelInjectParams& p) {
 }
 
 std::size_t sums_of(const VoxelInjectParams& p) { return static_cast<std::size_t>(p.bricks) * brick_voxels * 4; }
+
+int modulo(int a, int n) { return (a % n + n) % n; }
+Planner::Values window_values(const VoxelInjectParams& p) {
+  const auto turn = [&](std::size_t axis, int n) { return p.toroidal ? modulo(p.window[axis], n) : 0; };
+  return {{"inner_x", turn(0, brick_side)}, {"inner_y", turn(1, brick_side)}, {"inner_z", turn(2, brick_side)},
+          {"turn_x", turn(0, p.width)},     {"turn_y", turn(1, p.height)},    {"turn_z", turn(2, p.depth)}};
+}
 
 Status check_above_zero(const char* field, double value) {
   return value > 0 && std::isfinite(value) ? Status() : out_of_range(field, value, "a number above 0");
@@ -39,6 +47,10 @@ Status validate(const VoxelInjectParams& p) {
   LUXEL_CHECK(check_range("VoxelInjectParams.depth", p.depth, 1, 2048));
   if (voxels_of(p) * 4 > 0x7fffffff)
     return out_of_range("VoxelInjectParams.depth", p.depth, "width x height x depth of at most 536870911");
+  if (p.toroidal)
+    for (const int n : {p.width, p.height, p.depth})
+      if (n % brick_side != 0 || n > 2040)
+        return out_of_range("VoxelInjectParams.width, height or depth", n, "multiples of 8 up to 2040 with toroidal");
   if (p.format != Format::f32x4 && p.format != Format::f16x4 && p.format != Format::unorm8x4)
     return out_of_range("VoxelInjectParams.format", name(p.format), "f32x4, f16x4 or unorm8x4");
   LUXEL_CHECK(check_range("VoxelInjectParams.bricks", p.bricks, 1, static_cast<int>(bricks_of(p))));
@@ -52,6 +64,12 @@ Status validate(const VoxelInjectParams& p) {
     return out_of_range("VoxelInjectParams.bricks", p.bricks, "1..1048575 with a map");
   LUXEL_CHECK(check_above_zero("VoxelInjectParams.voxel", p.voxel));
   return check_above_zero("VoxelInjectParams.scale", p.scale);
+}
+
+std::vector<std::uint32_t> voxel_all_bricks(const VoxelInjectParams& p) {
+  std::vector<std::uint32_t> list(bricks_of(p));
+  std::iota(list.begin(), list.end(), 0u);
+  return list;
 }
 
 Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
@@ -94,6 +112,7 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
   }
   zero(outcomes, 8, "outcomes");
 
+  const Planner::Values window = window_values(p);
   const std::uint32_t capacity = static_cast<std::uint32_t>(p.bricks);
   Slot sums;
   if (map) {
@@ -105,14 +124,14 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                  {{"brick_list", bricks}, {"voxel_counters", counters}, {"slots", slots}});
     planner.pass("voxel_inject_map", format, "voxel_inject map",
                  {static_cast<std::uint32_t>(p.map_width), static_cast<std::uint32_t>(p.map_height), 1},
-                 profile.pixels.workgroup,
-                 {{"width", p.width},
+                 profile.pixels.workgroup, window +
+                 Planner::Values{{"width", p.width},
                   {"height", p.height},
                   {"depth", p.depth},
                   {"map_width", p.map_width},
                   {"map_height", p.map_height},
                   {"per_unit", steps / p.irradiance_max}},
-                 {{"COUNT", p.count}},
+                 {{"COUNT", p.count}, {"TORUS", p.toroidal}},
                  {{"map", texels}, {"colour", colour}, {"slots", slots}, {"sums", sums}, {"outcomes", outcomes}});
     planner.cost(0, static_cast<double>(p.map_width) * p.map_height * 48.0);
   }
@@ -129,8 +148,8 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                                          : list ? "both_"
                                                 : "map_") +
                              (p.emission ? "emission_" : "") + format;
-  planner.pass("voxel_inject", module, "voxel_inject", {brick_voxels, capacity, 1}, line,
-               {{"width", p.width},
+  planner.pass("voxel_inject", module, "voxel_inject", {brick_voxels, capacity, 1}, line, window +
+               Planner::Values{{"width", p.width},
                 {"height", p.height},
                 {"depth", p.depth},
                 {"bricks", p.bricks},
@@ -140,7 +159,7 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                 {"two_sided", p.two_sided},
                 {"unit", p.irradiance_max / steps},
                 {"scale", p.scale}},
-               {{"COUNT", p.count}}, slots);
+               {{"COUNT", p.count}, {"TORUS", p.toroidal}}, slots);
   planner.cost(0, static_cast<double>(p.bricks) * static_cast<double>(brick_voxels * pixel * (3 + p.emission)));
   return std::move(planner).finish();
 }

@@ -79,11 +79,6 @@ Planner::Values base_values(const VoxelizeParams& p) {
   const std::array<int, 3> base = base_of(p);
   return {{"base_x", base[0]}, {"base_y", base[1]}, {"base_z", base[2]}};
 }
-Planner::Values operator+(Planner::Values a, const Planner::Values& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 std::array<std::uint32_t, 3> launch(std::int64_t items) {
   return {static_cast<std::uint32_t>(std::clamp<std::int64_t>(items, 1, most_invocations)), 1, 1};
 }

@@ -549,5 +549,71 @@ TEST(VoxelInject, RefusesWhatItCannotTake) {
   refused([](P& p) { p.irradiance_max = 0; }, "irradiance_max");
 }
 
+// --- Windows
+
+// A hall with a few blocks, lit by a sun, a point, a patch and a map.
+Grid hall() {
+  Grid g(24, 16, 32);
+  floor_at(g, 2);
+  for (int z = 5; z < 30; ++z)
+    for (int y = 3; y < 14; ++y) g.put(z % 7 + 9, y, z, {0.2f, 0.9f, 0.6f, y % 2 ? 1.0f : 0.4f}, {0.6f, 0, 0.3f});
+  for (std::size_t i = 0; i < g.emission.size(); ++i) g.emission[i] = 0.01f * static_cast<float>(i % 17);
+  g.list_bricks();
+  return g;
+}
+
+// A volume as a window at `first` stores it.
+std::vector<float> rolled(const Grid& g, const std::vector<float>& values, std::array<int, 3> first) {
+  std::vector<float> out(values.size());
+  const auto modulo = [](int a, int n) { return (a % n + n) % n; };
+  for (int z = 0; z < g.n[2]; ++z)
+    for (int y = 0; y < g.n[1]; ++y)
+      for (int x = 0; x < g.n[0]; ++x)
+        std::copy_n(&values[4 * g.at(x, y, z)], 4,
+                    &out[4 * g.at(modulo(x + first[0], g.n[0]), modulo(y + first[1], g.n[1]), modulo(z + first[2], g.n[2]))]);
+  return out;
+}
+
+TEST(VoxelInject, AWindowIsLitAsTheGridThatItHolds) {
+  const Grid g = hall();
+  std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, {0.3, 1, 0.4}, {3, 2, 1}, {}, 0},
+                                           {VoxelLight::Kind::point, {4, 9, 10}, {50, 60, 70}, {}, 0},
+                                           {VoxelLight::Kind::patch, {20, 13, 16}, {90, 60, 70}, {0, -1, 0}, 2}},
+                                          {0, 0, 0}, 1);
+  for (int i = 0; i < 40; ++i) {  // across several bricks, and a few in empty voxels
+    const float at = static_cast<float>(i);
+    light.insert(light.end(), {1.0f + at / 2, 2.5f, 4.0f + at * 0.7f, 1, 0.5f, 0.25f, at / 40, 0});
+  }
+  VoxelInjectParams p = g.params();
+  p.lights = 3;
+  p.map_width = 40;
+  p.map_height = 1;
+  p.emission = true;
+  p.count = true;
+  for (const std::string& device : all_devices()) {
+    const std::vector<Bytes> plain = inject(device, g, p, light);
+    const std::vector<double> expected = decode(p.format, plain[0], test_context(device).real64());
+    for (const std::array<int, 3> first : {std::array{0, 0, 0}, std::array{8, -8, 40}, std::array{-13, 5, 101}}) {
+      VoxelInjectParams q = p;
+      q.toroidal = true;
+      q.window = first;
+      Grid window = g;
+      for (std::vector<float>* v : {&window.colour, &window.normal, &window.emission}) *v = rolled(g, *v, first);
+      window.bricks = voxel_all_bricks(q);
+      EXPECT_EQ(window.bricks.size(), 4u * 3 * 5);
+      window.counters[2] = static_cast<std::uint32_t>(window.bricks.size());
+      q.bricks = static_cast<int>(window.bricks.size());
+      const std::vector<Bytes> out = inject(device, window, q, light);
+      const std::vector<double> found = decode(p.format, out[0], test_context(device).real64());
+      const std::vector<float> as_floats(expected.begin(), expected.end());
+      const std::vector<float> moved = rolled(g, as_floats, first);
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < moved.size(); ++i) different += static_cast<float>(found[i]) != moved[i];
+      EXPECT_EQ(different, 0u) << device << " window at " << first[0];
+      EXPECT_EQ(words(out[1]), words(plain[1])) << device;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace luxel

@@ -29,6 +29,8 @@ struct VoxelInjectParams {
   int width = 0;                  // voxels, 1..2048, as voxelize had them
   int height = 0;                 // 1..2048
   int depth = 0;                  // 1..2048
+  bool toroidal = false;          // the grid is a window, as VoxelizeParams had it: volumes are addressed modulo their extents
+  std::array<int, 3> window{0, 0, 0};  // its first voxel. Rays see the window alone; lights and maps count from its corner
   Format format = Format::f32x4;  // of all volumes: f32x4, f16x4, unorm8x4
   int bricks = 0;                 // capacity of the list of touched bricks, 1..: VoxelizeParams.bricks
   int lights = 0;                 // in the list, each with a shadow ray through the voxels, 0..65536
@@ -66,6 +68,10 @@ enum class VoxelInjectCount {
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelInjectParams& params);
 Result<Plan> plan(const VoxelInjectParams& params, const Profile& profile);
+
+/// The list of all bricks of the grid, for `bricks` (as many words as p.bricks must then be); the third word of
+/// `voxel_counters` is its length. A window that moved is lit by it: voxelize lists only what scrolled in.
+std::vector<std::uint32_t> voxel_all_bricks(const VoxelInjectParams& params);
 
 /// The resource `lights`: 12 floats a light, rebased in double. `origin`: outer corner of voxel (0,0,0); `voxel`: its side.
 std::vector<float> voxel_lights(const std::vector<VoxelLight>& lights, const std::array<double, 3>& origin, double voxel);

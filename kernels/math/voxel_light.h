@@ -12,9 +12,11 @@
 #define LIGHT_POINT 1
 #define LIGHT_PATCH 2
 
-// Voxel v of brick b of a grid.
-FN ivec3 lit_voxel(int b, int v, ivec3 extent) {
-    const ivec3 bricks = (extent + (LIT_BRICK - 1)) / LIT_BRICK;
+// A window's bricks lie at multiples of 8 voxels of the world, in a grid that is a brick larger.
+FN ivec3 lit_bricks(ivec3 extent, int torus_) { return (extent + (LIT_BRICK - 1)) / LIT_BRICK + torus_; }
+
+// Voxel v of brick b of a grid of bricks.
+FN ivec3 lit_voxel(int b, int v, ivec3 bricks) {
     return LIT_BRICK * ivec3(b % bricks.x, b / bricks.x % bricks.y, b / bricks.x / bricks.y) + ivec3(v & 7, (v >> 3) & 7, v >> 6);
 }
 FN bool in_grid(ivec3 p, ivec3 extent) {

@@ -3,6 +3,12 @@
 
 FN ivec3 extent_of(CTX) { return ivec3(params.width, params.height, params.depth); }
 
+// Where voxel p of the grid lies in the volumes.
+FN ivec3 stored(CTX, ivec3 p) {
+    if (TORUS == 0) return p;
+    return torus(p + ivec3(params.turn_x, params.turn_y, params.turn_z), extent_of(ctx));
+}
+
 #if MAP
 // Mean of the texels, in `w` how many.
 FN vec4 mean_of_texels(CTX, int slot, int v) {
@@ -17,7 +23,7 @@ FN vec4 mean_of_texels(CTX, int slot, int v) {
 
 #if LIGHTS
 FN vec3 normal_at(CTX, ivec3 p) {
-    const vec4 n = load_voxel(normal, extent_of(ctx), p);
+    const vec4 n = load_voxel(normal, extent_of(ctx), stored(ctx, p));
     if (UNORM != 0) return vec3(2.0f * n.x - 1.0f, 2.0f * n.y - 1.0f, 2.0f * n.z - 1.0f);
     return vec3(n.x, n.y, n.z);
 }
@@ -43,7 +49,7 @@ FN float transmittance(CTX, vec3 from, vec3 direction, float reach) {
     float t = 0.0f;
     for (int step = 0; step < most && t < reach && in_grid(cell, extent); ++step) {
         const float leave = min(min(next.x, next.y), next.z);
-        const float a = load_voxel(colour, extent, cell).w;
+        const float a = load_voxel(colour, extent, stored(ctx, cell)).w;
         if (a >= 1.0f) return 0.0f;
         if (a > 0.0f) {  // a chord may be longer than 1, its half is not
             const float half_passed = 1.0f - a * layer_part(a, 0.5f * (min(leave, reach) - t));
@@ -110,11 +116,13 @@ KERNEL(voxel_inject) {
     if (slot >= int(min(load(voxel_counters, LIT_COUNT_BRICKS), uint(params.bricks)))) return;
     const int v = invocation_x();
     const ivec3 extent = extent_of(ctx);
-    const ivec3 p = lit_voxel(int(load(brick_list, slot)), v, extent);
+    const ivec3 p = lit_voxel(int(load(brick_list, slot)), v, lit_bricks(extent, TORUS)) -
+                    TORUS * ivec3(params.inner_x, params.inner_y, params.inner_z);
     if (!in_grid(p, extent)) return;
-    const vec4 surface = load_voxel(colour, extent, p);
+    const ivec3 at = stored(ctx, p);
+    const vec4 surface = load_voxel(colour, extent, at);
     if (!(surface.w > 0.0f)) {
-        store_voxel(radiance, extent, p, vec4(0.0f));
+        store_voxel(radiance, extent, at, vec4(0.0f));
         return;
     }
     vec3 arrived = vec3(0.0f);
@@ -130,10 +138,10 @@ KERNEL(voxel_inject) {
     lit = lit || arrived.x + arrived.y + arrived.z > 0.0f;
     vec3 outgoing = 0.318309886183791f * vec3(surface.x * arrived.x, surface.y * arrived.y, surface.z * arrived.z);
 #if EMISSION
-    const vec4 own = load_voxel(emission, extent, p);
+    const vec4 own = load_voxel(emission, extent, at);
     outgoing = outgoing + vec3(own.x, own.y, own.z);
 #endif
     const float scale = params.scale * surface.w;
-    store_voxel(radiance, extent, p, vec4(scale * outgoing.x, scale * outgoing.y, scale * outgoing.z, surface.w));
+    store_voxel(radiance, extent, at, vec4(scale * outgoing.x, scale * outgoing.y, scale * outgoing.z, surface.w));
     if (COUNT != 0) atomic_add(outcomes, lit ? INJECT_LIT : INJECT_UNLIT, 1u);
 }

@@ -1,5 +1,5 @@
 /* BUILD
-   math: opacity voxel_light
+   math: opacity torus voxel_light
    module lights_f32x4: PIXEL=f32x4 UNORM=0 LIGHTS=1 MAP=0 EMISSION=0
    module lights_f16x4: PIXEL=f16x4 UNORM=0 LIGHTS=1 MAP=0 EMISSION=0
    module lights_unorm8x4: PIXEL=unorm8x4 UNORM=1 LIGHTS=1 MAP=0 EMISSION=0
@@ -23,6 +23,12 @@
     _(int, width)            /* voxels of the grid */ \
     _(int, height) \
     _(int, depth) \
+    _(int, inner_x)          /* TORUS: voxels of the grid of bricks before the window's first */ \
+    _(int, inner_y) \
+    _(int, inner_z) \
+    _(int, turn_x)           /* where the window's first voxel lies in the volumes */ \
+    _(int, turn_y) \
+    _(int, turn_z) \
     _(int, bricks)           /* capacity of the list */ \
     _(int, lights)           /* in the list */ \
     _(float, voxel)          /* side of a voxel, scene units */ \
@@ -31,7 +37,8 @@
     _(float, unit)           /* irradiance of one step of the map's sums */ \
     _(float, scale)          /* of stored radiance */
 #define CONSTANTS(_) \
-    _(0, int, COUNT, 0)  /* 1: outcomes are counted */
+    _(0, int, COUNT, 0)  /* 1: outcomes are counted */ \
+    _(1, int, TORUS, 0)  /* 1: the grid is a window, its volumes are addressed modulo their extents */
 #if EMISSION
 #define EMITTED(_) _(READ, 7, PIXEL, emission)
 #else

@@ -32,14 +32,16 @@ KERNEL(voxel_inject_map) {
         return;
     }
     const ivec3 p = ivec3(int(place.x), int(place.y), int(place.z));
-    const ivec3 bricks = (extent + (LIT_BRICK - 1)) / LIT_BRICK;
-    const ivec3 b = p / LIT_BRICK;
+    const ivec3 bricks = lit_bricks(extent, TORUS);
+    const ivec3 in_bricks = p + TORUS * ivec3(params.inner_x, params.inner_y, params.inner_z);
+    const ivec3 b = in_bricks / LIT_BRICK;
+    const ivec3 stored = TORUS == 0 ? p : torus(p + ivec3(params.turn_x, params.turn_y, params.turn_z), extent);
     const uint slot = load(slots, (b.z * bricks.y + b.y) * bricks.x + b.x);
-    if (slot == 0u || !(load_voxel(colour, extent, p).w > 0.0f)) {
+    if (slot == 0u || !(load_voxel(colour, extent, stored).w > 0.0f)) {
         count_one(ctx, INJECT_DROPPED);
         return;
     }
-    const ivec3 in_brick = p - LIT_BRICK * b;
+    const ivec3 in_brick = in_bricks - LIT_BRICK * b;
     const int at = ((int(slot) - 1) * LIT_BRICK_VOXELS + (in_brick.z * LIT_BRICK + in_brick.y) * LIT_BRICK + in_brick.x) * 4;
     add(ctx, at, irradiance.x);
     add(ctx, at + 1, irradiance.y);
