@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "host/check.h"
-#include "host/planner.h"
+#include "host/gaussian_blur.h"
 
 namespace luxel {
 
 namespace {
 
 constexpr int max_radius = 4095;        // the table of weights has 4096 entries
+constexpr double least_sigma = 0.0757;  // below, exp(-1/(2 sigma^2)) is no normal float
 constexpr int max_direct_radius = 96;   // (2R+1)^2 taps a pixel: beyond, software drivers take minutes
 
 double half_step(Format format) {
@@ -49,10 +50,11 @@ Status validate(const GaussianBlurParams& p) {
   LUXEL_CHECK(stride("GaussianBlurParams.dst_stride", p.dst_stride));
   LUXEL_CHECK(check_range("GaussianBlurParams.sigma", p.sigma, 0.0, 10000.0));
   LUXEL_CHECK(check_range("GaussianBlurParams.radius", p.radius, -1, max_radius));
-  if (p.radius < 0 && std::ceil(3 * p.sigma) > max_radius)
+  const bool taps = p.variant != GaussianVariant::recursive;
+  if (taps && p.radius < 0 && std::ceil(3 * p.sigma) > max_radius)
     return out_of_range("GaussianBlurParams.sigma", p.sigma, "0..1365, or a radius given (0..4095)");
   LUXEL_CHECK(check_range("GaussianBlurParams.border", static_cast<int>(p.border), 0, 3));
-  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 2));
+  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 3));
   LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 2));
   if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
     return out_of_range("GaussianBlurParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
@@ -69,6 +71,16 @@ Status validate(const GaussianBlurParams& p) {
                           "clamp or wrap for variant sampler");
     if (p.difference) return out_of_range("GaussianBlurParams.difference", "true", "false for variant sampler");
     if (p.keep_alpha) return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for variant sampler");
+  }
+  if (p.variant == GaussianVariant::recursive) {
+    LUXEL_CHECK(check_range("GaussianBlurParams.order", p.order, 3, 5));
+    if (p.radius >= 0) return out_of_range("GaussianBlurParams.radius", p.radius, "-1 for variant recursive");
+    if (p.input == Input::storage_image)
+      return out_of_range("GaussianBlurParams.input", "storage_image", "buffer or image for variant recursive");
+    if (p.difference)
+      return out_of_range("GaussianBlurParams.difference", "true", "false for variant recursive, which takes differences always");
+    if (recursive_scratch(p) > 0x7fffffff)
+      return out_of_range("GaussianBlurParams.height", p.height, "2 x width x height x channels of at most 2147483647 for variant recursive");
   }
   const long long pixels = static_cast<long long>(std::max(p.src_stride, p.dst_stride) > 0
                                                       ? std::max({p.src_stride, p.dst_stride, p.width}) : p.width) * p.height;
@@ -144,9 +156,12 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   const int radius = effective_radius(p);
   const int radius_x = p.width > 1 ? radius : 0;   // along an axis of one pixel every border gives that pixel
   const int radius_y = p.height > 1 ? radius : 0;
+  // Where no neighbour has a weight, every variant is a copy.
+  const bool copies = p.sigma < least_sigma;
+  const bool recursive = p.variant == GaussianVariant::recursive && !copies && p.width * p.height > 1;
   const bool separable = p.variant != GaussianVariant::direct;
   const bool sampler = p.variant == GaussianVariant::sampler;
-  const bool two = separable && radius_x > 0 && radius_y > 0;
+  const bool two = separable && (recursive ? p.width > 1 && p.height > 1 : radius_x > 0 && radius_y > 0);
 
   Planner planner("gaussian_blur");
   Resource src{"src"}, dst{"dst"};
@@ -164,6 +179,10 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   }
   const Slot from = planner.resource(src);
   const Slot to = planner.resource(dst);
+  if (recursive) {
+    plan_recursive(p, profile, planner, from, to);
+    return std::move(planner).finish();
+  }
   const std::string name_of = name(p.format);
   const Format middle_format = n == 1 ? Format::f32x1 : n == 2 ? Format::f32x2 : Format::f32x4;
   const std::string middle_name = name(middle_format);

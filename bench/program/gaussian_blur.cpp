@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 struct Arguments {
   std::string in, out, device, variant, border, format, input;
   double sigma = 0;
-  int radius = -1;
+  int radius = -1, order = 5;
   bool difference = false, keep_alpha = false, drop_taps = false;
 };
 
@@ -26,8 +27,11 @@ GaussianBlurParams parameters(const Arguments& a, const io::Image& image) {
   p.radius = a.radius;
   p.border = a.border == "clamp" ? Border::clamp : a.border == "mirror" ? Border::mirror
              : a.border == "wrap" ? Border::wrap : Border::zero;
-  p.variant = a.variant == "separable" ? GaussianVariant::separable
-              : a.variant == "direct" ? GaussianVariant::direct : GaussianVariant::sampler;
+  const auto& variants = kernel("gaussian_blur").variants;  // in the order of the enumeration
+  p.variant = static_cast<GaussianVariant>(
+      std::find_if(variants.begin(), variants.end(), [&](const Variant& v) { return v.name == a.variant; }) -
+      variants.begin());
+  p.order = a.order;
   p.format = storage_format(a.format, image.channels);
   p.input = a.input == "image" || p.variant == GaussianVariant::sampler ? Input::image : Input::buffer;
   p.difference = a.difference;
@@ -56,8 +60,10 @@ int run(const Arguments& a) {
   image.pixels = io::unpack(data["dst"], p.format, context.real64(), image.channels);
   io::WriteReport changes;
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
-  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, radius {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format),
-             p.width, p.height, p.sigma, effective_radius(p), a.border, context.info().id, time_text(times), a.out,
+  const std::string knob = p.variant == GaussianVariant::recursive ? fmt::format("order {}", p.order)
+                                                                   : fmt::format("radius {}", effective_radius(p));
+  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format),
+             p.width, p.height, p.sigma, knob, a.border, context.info().id, time_text(times), a.out,
              changes_text(changes));
   return done;
 }
@@ -74,6 +80,7 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
       ->required()->type_name("FILE");
   add_number(*command, k, "--sigma", a->sigma);
   add_number(*command, k, "--radius", a->radius);
+  add_number(*command, k, "--order", a->order);
   add_variant(*command, k, a->variant);
   for (const auto& [name, value] :
        {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
@@ -82,7 +89,7 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
                                     {"--drop-taps", &a->drop_taps}})
     add_switch(*command, k, name, *value);
   add_device_option(*command, a->device);
-  command->footer("Images pass without colour conversion. Sigma above 1365 needs --radius.");
+  command->footer("Images pass without colour conversion. With taps, sigma above 1365 needs --radius.");
   command->callback([a, &exit_status] { exit_status = run(*a); });
 }
 

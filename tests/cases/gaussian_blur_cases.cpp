@@ -14,7 +14,7 @@ const char* name(Border border) {
 }
 
 const char* name(GaussianVariant variant) {
-  static const char* const names[] = {"separable", "direct", "sampler"};
+  static const char* const names[] = {"separable", "direct", "sampler", "recursive"};
   return names[static_cast<int>(variant)];
 }
 
@@ -24,7 +24,7 @@ GaussianBlurParams blur_params(int width, int height, double sigma, int radius, 
   p.width = width;
   p.height = height;
   p.sigma = sigma;
-  p.radius = radius;
+  p.radius = has_taps(variant) ? radius : -1;
   p.format = format;
   p.border = border;
   p.variant = variant;
@@ -47,12 +47,27 @@ Result<Values> blur(Context& context, const GaussianBlurParams& params, std::spa
 
 double rounding_bound(int radius) { return 2 * ((radius + 2) + 0.5 + 0.5 * (radius + 1)) * std::ldexp(1.0, -24); }
 
+double limit_of(const Values& src, int width, int height, Border border) {
+  double sum = 0, total = 0;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const bool edge_x = x == 0 || x == width - 1, edge_y = y == 0 || y == height - 1;
+      double w = 1;
+      if (border == Border::clamp) w = edge_x && edge_y ? 1 : 0;
+      if (border == Border::mirror) w = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
+      sum += w * src[static_cast<std::size_t>(y) * width + x];
+      total += w;
+    }
+  return sum / total;
+}
+
 std::vector<Case> gaussian_blur_cases() {
   std::vector<Case> cases;
   add_sigma_cases(cases);
   add_value_cases(cases);
   add_storage_cases(cases);
   add_equality_cases(cases);
+  add_recursive_cases(cases);
   for (Case& c : cases) c.kernel = "gaussian_blur";
   return cases;
 }

@@ -35,9 +35,11 @@ void add_equal_bits(std::vector<Case>& cases) {
     for (const Border border : borders) {
       cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border), ""));
       cases.push_back(equal_to_cpp(blur_params(43, 29, 1.3, 4, format, border, GaussianVariant::direct), ""));
+      cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border, GaussianVariant::recursive), ""));
       // A format and a border meet only in the loads and stores, so that a row and a column of the table nearly say it
       // all.
-      cases.back().slow = (cases.end() - 2)->slow = format != Format::f32x4 && border != Border::clamp;
+      cases.back().slow = (cases.end() - 2)->slow = (cases.end() - 3)->slow =
+          format != Format::f32x4 && border != Border::clamp;
     }
   GaussianBlurParams p = blur_params(67, 43, 3.7, 12);
   p.difference = true;
@@ -45,10 +47,20 @@ void add_equal_bits(std::vector<Case>& cases) {
   p.variant = GaussianVariant::direct;
   p.radius = 4;
   cases.push_back(equal_to_cpp(p, " difference"));
+  for (const int order : {3, 4}) {
+    GaussianBlurParams r = blur_params(67, 43, 3.7, 12, Format::f32x4, Border::clamp, GaussianVariant::recursive);
+    r.order = order;
+    cases.push_back(equal_to_cpp(r, fmt::format(" order {}", order)));
+    r.sigma = 0.6;
+    cases.push_back(equal_to_cpp(r, fmt::format(" order {} sigma 0.6", order)));
+  }
   p = blur_params(67, 43, 20, 60);
   cases.push_back(equal_to_cpp(p, " R 60"));
   for (const Format format : pixel_formats) {
     p = blur_params(67, 43, 3.7, 12, format, Border::mirror);
+    p.input = Input::image;
+    cases.push_back(equal_to_cpp(p, " image"));
+    p = blur_params(67, 43, 3.7, 12, format, Border::clamp, GaussianVariant::recursive);
     p.input = Input::image;
     cases.push_back(equal_to_cpp(p, " image"));
   }
@@ -56,22 +68,23 @@ void add_equal_bits(std::vector<Case>& cases) {
 
 void add_in_place(std::vector<Case>& cases) {
   for (const Format format : pixel_formats)
-    cases.push_back({"", fmt::format("in place, {}", name(format)),
-                     "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0,
-                     [=](Context& context) -> Result<double> {
-                       const Values src = quantise(scene::noise(45, 37, channels(format), 11), format);
-                       const GaussianBlurParams p = blur_params(45, 37, 2, 6, format);
-                       const auto apart = blur(context, p, src);
-                       if (!apart) return apart.status();
-                       Result<Run> run = Run::make(context, plan(p, context.profile()));
-                       if (!run) return run.status();
-                       run.value().alias("dst", "src");
-                       if (Status status = run.value().write("src", src); !status) return status;
-                       if (Status status = run.value().go(); !status) return status;
-                       const auto in_place = run.value().read("src");
-                       if (!in_place) return in_place.status();
-                       return count_different(in_place.value(), apart.value());
-                     }});
+    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive})
+      cases.push_back({"", fmt::format("in place, {} {}", name(variant), name(format)),
+                       "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0,
+                       [=](Context& context) -> Result<double> {
+                         const Values src = quantise(scene::noise(45, 37, channels(format), 11), format);
+                         const GaussianBlurParams p = blur_params(45, 37, 2, 6, format, Border::clamp, variant);
+                         const auto apart = blur(context, p, src);
+                         if (!apart) return apart.status();
+                         Result<Run> run = Run::make(context, plan(p, context.profile()));
+                         if (!run) return run.status();
+                         run.value().alias("dst", "src");
+                         if (Status status = run.value().write("src", src); !status) return status;
+                         if (Status status = run.value().go(); !status) return status;
+                         const auto in_place = run.value().read("src");
+                         if (!in_place) return in_place.status();
+                         return count_different(in_place.value(), apart.value());
+                       }});
 }
 
 // |a - b| of two ways to blur the same image.

@@ -14,7 +14,8 @@ namespace {
 
 void add_input_unchanged(std::vector<Case>& cases, double sigma, int radius) {
   for (const Format format : pixel_formats)
-    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct})
+    for (const GaussianVariant variant :
+         {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive})
       cases.push_back({"", fmt::format("sigma {} radius {}, {} {}", sigma, radius, name(variant), name(format)),
                        "sigma towards 0 gives the input bit for bit (values that differ)", 0,
                        [=](Context& context) -> Result<double> {
@@ -25,21 +26,6 @@ void add_input_unchanged(std::vector<Case>& cases, double sigma, int radius) {
                          return count_different(out.value(), src);
                        },
                        sigma > 0 && format != Format::f32x4});
-}
-
-// The value that every pixel tends to as sigma grows. Mirror does not repeat the edge, so that edge pixels count half.
-double limit_of(const Values& src, int width, int height, Border border) {
-  double sum = 0, total = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const bool edge_x = x == 0 || x == width - 1, edge_y = y == 0 || y == height - 1;
-      double w = 1;
-      if (border == Border::clamp) w = edge_x && edge_y ? 1 : 0;
-      if (border == Border::mirror) w = (edge_x ? 0.5 : 1.0) * (edge_y ? 0.5 : 1.0);
-      sum += w * src[static_cast<std::size_t>(y) * width + x];
-      total += w;
-    }
-  return sum / total;
 }
 
 void add_limit(std::vector<Case>& cases, Border border, double sigma, int radius, double bound, const char* promise) {

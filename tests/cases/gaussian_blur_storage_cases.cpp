@@ -36,7 +36,8 @@ void add_single_rounding(std::vector<Case>& cases, Format format, double toleran
 
 // With wrap every pixel is handed on whole, so the sum of all pixels is kept.
 void add_kept_sum(std::vector<Case>& cases, Format format, double bound, const char* promise) {
-  for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct})
+  for (const GaussianVariant variant :
+       {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive})
     cases.push_back({"", fmt::format("sum of all pixels, wrap, {} {}", name(variant), name(format)), promise, bound,
                      [=](Context& context) -> Result<double> {
                        const Values src = quantise(scene::noise(128, 64, channels(format), 8), format);
@@ -48,21 +49,22 @@ void add_kept_sum(std::vector<Case>& cases, Format format, double bound, const c
 
 void add_keep_alpha(std::vector<Case>& cases) {
   for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4})
-    cases.push_back({"", fmt::format("keep_alpha, {}", name(format)),
-                     "alpha is copied bit for bit and colour is as without it (values that differ)", 0,
-                     [=](Context& context) -> Result<double> {
-                       const Values src = quantise(scene::noise(33, 17, 4, 9), format);
-                       GaussianBlurParams p = blur_params(33, 17, 2, 6, format);
-                       const auto filtered = blur(context, p, src);
-                       if (!filtered) return filtered.status();
-                       p.keep_alpha = true;
-                       const auto kept = blur(context, p, src);
-                       if (!kept) return kept.status();
-                       double different = 0;
-                       for (std::size_t i = 0; i < src.size(); ++i)
-                         different += same(kept.value()[i], i % 4 == 3 ? src[i] : filtered.value()[i]) ? 0 : 1;
-                       return different;
-                     }});
+    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive})
+      cases.push_back({"", fmt::format("keep_alpha, {} {}", name(variant), name(format)),
+                       "alpha is copied bit for bit and colour is as without it (values that differ)", 0,
+                       [=](Context& context) -> Result<double> {
+                         const Values src = quantise(scene::noise(33, 17, 4, 9), format);
+                         GaussianBlurParams p = blur_params(33, 17, 2, 6, format, Border::clamp, variant);
+                         const auto filtered = blur(context, p, src);
+                         if (!filtered) return filtered.status();
+                         p.keep_alpha = true;
+                         const auto kept = blur(context, p, src);
+                         if (!kept) return kept.status();
+                         double different = 0;
+                         for (std::size_t i = 0; i < src.size(); ++i)
+                           different += same(kept.value()[i], i % 4 == 3 ? src[i] : filtered.value()[i]) ? 0 : 1;
+                         return different;
+                       }});
 }
 
 void add_dropped_taps(std::vector<Case>& cases) {

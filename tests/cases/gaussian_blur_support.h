@@ -17,7 +17,10 @@ constexpr Border borders[] = {Border::clamp, Border::mirror, Border::wrap, Borde
 const char* name(Border border);
 const char* name(GaussianVariant variant);
 
-/// Parameters by what the cases vary.
+/// Whether a radius means anything to it.
+inline bool has_taps(GaussianVariant variant) { return variant < GaussianVariant::recursive; }
+
+/// Parameters by what the cases vary; the radius stays -1 where a variant has none.
 GaussianBlurParams blur_params(int width, int height, double sigma, int radius, Format format = Format::f32x4,
                                Border border = Border::clamp, GaussianVariant variant = GaussianVariant::separable);
 
@@ -29,10 +32,15 @@ Result<Values> blur(Context& context, const GaussianBlurParams& params, std::spa
 /// u/2 each and their centre by (R + 1) u/2, and there are two passes.
 double rounding_bound(int radius);
 
+/// The value that every pixel tends to as sigma grows: the mean, with mirror (which does not repeat the edge) edge pixels
+/// counted half, with clamp the mean of the corners.
+double limit_of(const Values& src, int width, int height, Border border);
+
 /// Cases in these files, in the order of gaussian_blur_cases().
 void add_sigma_cases(std::vector<Case>& cases);
 void add_value_cases(std::vector<Case>& cases);
 void add_storage_cases(std::vector<Case>& cases);
 void add_equality_cases(std::vector<Case>& cases);
+void add_recursive_cases(std::vector<Case>& cases);
 
 }  // namespace luxel::cases
