@@ -1,0 +1,94 @@
+// hiz_ssr: reflections found on the screen, by rays over a depth image (Uludag, Hi-Z Screen-Space Cone-Traced
+// Reflections, GPU Pro 5, 2014; McGuire and Mara, Efficient GPU Screen-Space Ray Tracing, 2014).
+#pragma once
+#include <luxel/mip_build.h>
+
+namespace luxel {
+
+enum class SsrVariant {
+  hiz,    // a pyramid of nearest depths: up a level where nothing is near, down where something may be
+  dda,    // every pixel along the ray; the same pixels are hit as by hiz, to the bit
+  linear  // uniform steps in view space and a binary search: the crude baseline, which misses what lies between
+};
+
+/// What a depth image holds of a surface at depth d, its distance from the camera along the view axis.
+enum class SsrDepth {
+  linear,   // d; 1e10 and above, infinity and NaN: no surface
+  standard, // 0 at the near plane, 1 at the far plane, (1/near - 1/d) / (1/near - 1/far); 1 and above, NaN: no surface
+  reversed  // 1 minus that; 0 and below, NaN: no surface
+};
+
+/// View space is right-handed, x right, y up, the camera looks along -z. Pixel (0, 0) is the top left one, pixel
+/// coordinates are 0 at its outer corner; a point (x, y, -d) is seen at (centre_x + focal_x x / d, centre_y - focal_y y / d).
+struct HizSsrParams {
+  int width = 0;   // of the depth image, pixels, 1..65535
+  int height = 0;  // 1..65535
+  SsrVariant variant = SsrVariant::hiz;
+  SsrDepth depth = SsrDepth::linear;
+  double near_plane = 0.01;  // scene units, > 0: rays that come back to this depth end there, behind the camera
+  double far_plane = 0;      // > near_plane, or 0 for infinite; of standard and reversed depth alone
+  double focal_x = 0;        // pixels, > 0: width / (2 tan(half the horizontal field))
+  double focal_y = 0;        // pixels, > 0
+  double centre_x = 0;       // pixel coordinates of the view axis
+  double centre_y = 0;
+  int rays = 0;              // > 0: rays of a list are followed; 0: mirror rays of the pixels
+
+  int levels = 0;            // hiz: levels of the pyramid that are read, level 0 counts; 0: all
+  int start_level = 0;       // hiz: the level that rays start on
+  int max_steps = 0;         // looks at the depth image a ray; 0: as many as the longest may need
+  int steps = 64;            // linear: along a ray, 1..65536
+  int refinements = 6;       // linear: halvings of a step, 0..24
+  double thickness = 1e30;   // of surfaces behind what is seen, scene units along the view axis, >= 0 or infinite
+  double max_distance = 0;   // length of rays, scene units; 0: without end (linear: must be given)
+  double bias = 0.5;         // mirror rays start in front of the surface by its slope over this many pixels, 0..64; from
+                             // 0.5 on no plane hits itself
+  double cutoff = 1;         // roughness from which on pixels do not reflect, 0..2
+  double fade_edge = 0.05;   // confidence falls to 0 over this part of the image at its edges, 0..0.5
+  double fade_distance = 0;  // over this last part of max_distance, 0..1
+  double fade_thickness = 0; // at the back of a surface by this much, 0..1
+  double fade_back = 1;      // at the back of a surface that looks away by this much, 0..1 (mirror rays)
+  bool count = false;        // adds `counters`
+};
+
+/// How a ray ended: paths[4 i + 1], and the u32 of `counters` that are added to. A step cap is never a hit.
+enum class SsrOutcome {
+  none,        // no ray: no surface, or too rough
+  hit,         // the ray's depths within the pixel meet [d, d + thickness] of the surface there
+  miss,        // reached max_distance or infinity within the image
+  left,        // left the image
+  behind,      // came back to the near plane
+  capped,      // reached max_steps
+  degenerate,  // no direction (zero or NaN), or a normal that looks away
+  rays,        // counters alone: all of hit .. capped
+  hidden,      // counters alone: rays of any outcome that passed behind a surface, so that what they met may be hidden
+  steps        // counters alone: looks at the depth image
+};
+constexpr int ssr_outcomes = 10;
+
+/// Resources of the plan:
+/// - `depth`: f32x1, level 0, tightly packed, rows from the top; hiz: and all levels behind it, at
+///   hiz_ssr_level_offset(), each the nearest depth below it, as mip_build's outputs with hiz_ssr_pyramid();
+/// - `normals` (mirror rays): a vec4 a pixel: normal in view space (any length) and roughness;
+/// - `rays` (rays of a list): two vec4 a ray: origin in view space and reach (0: max_distance); direction (any length), 0;
+/// - `hits` (written): a vec4 a ray: u, v (0..1, from the top left), depth of the ray where it meets the surface,
+///   confidence 0..1; zeros unless hit;
+/// - `paths` (written): a vec4 a ray: length in scene units, SsrOutcome, 1 where it passed behind a surface, looks;
+/// - `counters` (count): ssr_outcomes u32.
+/// Errors: invalid_argument, naming field, value and range.
+Status validate(const HizSsrParams& params);
+Result<Plan> plan(const HizSsrParams& params, const Profile& profile);
+
+/// The pyramid that hiz reads, as mip_build makes it, and how many levels that is with level 0 (1: none is made).
+MipBuildParams hiz_ssr_pyramid(const HizSsrParams& params);
+int hiz_ssr_levels(const HizSsrParams& params);
+
+/// Texels of `depth` before a level, a multiple of 64 (mip_build's outputs can be bound as these parts, Named::first); and of
+/// the whole buffer.
+std::size_t hiz_ssr_level_offset(const HizSsrParams& params, int level);
+std::size_t hiz_ssr_depth_texels(const HizSsrParams& params);
+
+/// Sets focal lengths and centre to a symmetric view with this vertical field, radians, above 0 and below pi, and square
+/// pixels.
+void set_field(HizSsrParams& params, double vertical_field);
+
+}  // namespace luxel
