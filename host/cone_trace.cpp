@@ -37,6 +37,37 @@ Status check_cone(const Cone& c, std::size_t i) {
   return check_range((field + ".aperture").c_str(), c.aperture, 0.0, 2.6);
 }
 
+double border(const ConeTraceParams& p) {
+  return p.clipmap_border > 0 ? p.clipmap_border : *std::min_element(p.extent.begin(), p.extent.end()) / 8.0;
+}
+
+// Each window lies in the next, so far from its sides that the next need not yet give way.
+Status check_clipmap(const ConeTraceParams& p) {
+  LUXEL_CHECK(check_range("ConeTraceParams.clipmap's size", static_cast<int>(p.clipmap.size()), 2, 16));
+  for (const int n : p.extent)
+    if (n % 8 != 0 || n < 16) return out_of_range("ConeTraceParams.extent", n, "multiples of 8 from 16 on with a clipmap");
+  if (p.clipmap_border != 0)
+    LUXEL_CHECK(check_range("ConeTraceParams.clipmap_border", p.clipmap_border, 0.5,
+                            *std::min_element(p.extent.begin(), p.extent.end()) / 4.0));
+  if (p.variant != ConeVariant::isotropic) return out_of_range("ConeTraceParams.variant", "anisotropic", "isotropic with a clipmap");
+  if (p.input != Input::buffer) return out_of_range("ConeTraceParams.input", "image", "buffer with a clipmap");
+  if (p.levels != 0) return out_of_range("ConeTraceParams.levels", p.levels, "0 with a clipmap, which has its own");
+  for (std::size_t l = 0; l < p.clipmap.size(); ++l) {
+    const std::string field = "ConeTraceParams.clipmap[" + std::to_string(l) + "]";
+    for (std::size_t k = 0; k < 3; ++k) {
+      LUXEL_CHECK(check_range(field.c_str(), p.clipmap[l][k], -(1 << 20), 1 << 20));
+      if (l == 0) continue;
+      const double low = p.clipmap[l - 1][k] / 2.0 - p.clipmap[l][k];
+      const double high = p.extent[k] / 2.0 - low;
+      if (std::min(low, high) < border(p) + 0.5)
+        return Status(Code::invalid_argument, field + " leaves the level before it " + std::to_string(std::min(low, high)) +
+                                                  " voxels from a side; expected at least " +
+                                                  std::to_string(border(p) + 0.5));
+    }
+  }
+  return {};
+}
+
 Status check_volume(const ConeTraceParams& p) {
   constexpr const char* fields[3] = {"ConeTraceParams.extent[0]", "ConeTraceParams.extent[1]",
                                      "ConeTraceParams.extent[2]"};
@@ -47,7 +78,8 @@ Status check_volume(const ConeTraceParams& p) {
   LUXEL_CHECK(check_range("ConeTraceParams.levels", p.levels, 0, all_levels(p.extent)));
   if (p.format != Format::f32x4 && p.format != Format::f16x4 && p.format != Format::unorm8x4)
     return out_of_range("ConeTraceParams.format", name(p.format), "f32x4, f16x4 or unorm8x4");
-  if (std::max(texels(p.extent), cone_trace_coarse_texels(p)) > 0x20000000)
+  if (!p.clipmap.empty()) LUXEL_CHECK(check_clipmap(p));
+  if (std::max(texels(p.extent) * std::max<std::size_t>(p.clipmap.size(), 1), cone_trace_coarse_texels(p)) > 0x20000000)
     return out_of_range("ConeTraceParams.extent", texels(p.extent),
                         "at most 536870912 texels in the finest level, and in all others together");
   for (const double o : p.origin) LUXEL_CHECK(check_range("ConeTraceParams.origin", o, -1e30, 1e30));
@@ -56,7 +88,21 @@ Status check_volume(const ConeTraceParams& p) {
 
 }  // namespace
 
-int cone_trace_levels(const ConeTraceParams& p) { return p.levels > 0 ? p.levels : all_levels(p.extent); }
+std::vector<Extent> cone_trace_windows(const ConeTraceParams& p, const std::array<double, 3>& centre, int levels) {
+  std::vector<Extent> windows;
+  for (int l = 0; l < levels; ++l) {
+    Extent first;
+    for (std::size_t k = 0; k < 3; ++k)
+      first[k] = static_cast<int>(std::floor((centre[k] - p.origin[k]) / std::ldexp(p.voxel, l) - p.extent[k] / 2.0 + 0.5));
+    windows.push_back(first);
+  }
+  return windows;
+}
+
+int cone_trace_levels(const ConeTraceParams& p) {
+  if (!p.clipmap.empty()) return static_cast<int>(p.clipmap.size());
+  return p.levels > 0 ? p.levels : all_levels(p.extent);
+}
 
 Extent cone_trace_extent(const ConeTraceParams& p, int level) {
   Extent e = p.extent;
@@ -71,6 +117,7 @@ std::size_t cone_trace_level_offset(const ConeTraceParams& p, int level, int dir
 }
 
 std::size_t cone_trace_coarse_texels(const ConeTraceParams& p) {
+  if (!p.clipmap.empty()) return (p.clipmap.size() - 1) * texels(p.extent);
   return cone_trace_level_offset(p, cone_trace_levels(p));
 }
 
@@ -171,9 +218,11 @@ class ConeTracing {
       : p_(params), profile_(profile), planner_("cone_trace"), cones_(params.cones) {
     if (cones_.empty()) cones_ = cone_set(6).value();
     const bool image = p_.input == Input::image;
-    fine_ = volume("fine", p_.extent, texels(p_.extent));
-    coarse_ = fine_;  // never read where there is one level
-    if (cone_trace_levels(p_) > 1)
+    const bool clipmap = !p_.clipmap.empty();
+    fine_ = clipmap ? volume("clipmap", p_.extent, texels(p_.extent) * p_.clipmap.size())
+                    : volume("fine", p_.extent, texels(p_.extent));
+    coarse_ = fine_;  // never read where there is one level, or a clipmap
+    if (cone_trace_levels(p_) > 1 && !clipmap)
       coarse_ = volume("coarse", image ? cone_trace_atlas_extent(p_) : Extent{1, 1, 1}, cone_trace_coarse_texels(p_));
     receivers_ = list("receivers", 2, false);
     if (p_.specular) views_ = list("views", 1, false);
@@ -228,15 +277,33 @@ class ConeTracing {
   // Steps of the longest way through the volume at the least step: none takes more.
   int steps_needed() const {
     const double diagonal = std::hypot(p_.extent[0], p_.extent[1], p_.extent[2]);
-    return static_cast<int>(std::ceil(diagonal / p_.step_scale)) + 8;
+    const int volumes = std::max<int>(static_cast<int>(p_.clipmap.size()), 1);
+    return volumes * static_cast<int>(std::ceil(diagonal / p_.step_scale)) + 8;
   }
 
   std::string module(const std::string& what) const {
     std::string text = what == "specular" ? "specular_" : "";
     if (p_.count) text += "count_";
     if (p_.input == Input::image) return text + "sampled";
+    if (!p_.clipmap.empty()) return text + "clipmap_" + name(p_.format);
     if (profile_.texels && !p_.count) text += "texels_";
     return text + name(p_.format);
+  }
+
+  // As the signature has it. All whole numbers and powers of two, but for the border.
+  std::vector<double> window_table() const {
+    std::vector<double> table(128, 0);
+    for (std::size_t l = 0; l < p_.clipmap.size(); ++l) {
+      const int level = static_cast<int>(l);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int n = p_.extent[k];
+        table[8 * l + k] = std::ldexp(p_.clipmap[l][k], level) - p_.clipmap[0][k];
+        table[8 * l + 3 + k] = (p_.clipmap[l][k] % n + n) % n;
+      }
+      table[8 * l + 6] = std::ldexp(1, -level);
+      table[8 * l + 7] = static_cast<float>(1 / border(p_));
+    }
+    return table;
   }
 
   void pass(const std::string& what, bool radiance, bool occlusion, int cones, const Slots& own) {
@@ -245,6 +312,12 @@ class ConeTracing {
     Slots slots{{"fine", fine_}, {"coarse", coarse_}, {"receivers", receivers_}};
     slots.insert(slots.end(), own.begin(), own.end());
     if (p_.count) slots.emplace_back("counters", counters_);
+    std::array<double, 3> origin = p_.origin;  // a clipmap's: the corner of the finest window
+    if (!p_.clipmap.empty()) {
+      for (std::size_t k = 0; k < 3; ++k) origin[k] += p_.clipmap[0][k] * p_.voxel;
+      const std::vector<double> windows = window_table();
+      slots.emplace_back("windows", planner_.table(windows, windows));
+    }
     std::array<std::uint32_t, 3> workgroup = profile_.pixels.workgroup;
     if (p_.height == 1) workgroup = {workgroup[0] * workgroup[1] * workgroup[2], 1, 1};
     planner_.pass("cone_trace", module(what), "cone_trace " + what,
@@ -258,9 +331,9 @@ class ConeTracing {
                    {"atlas_x", atlas[0]},
                    {"atlas_y", atlas[1]},
                    {"atlas_z", atlas[2]},
-                   {"origin_x", p_.origin[0]},
-                   {"origin_y", p_.origin[1]},
-                   {"origin_z", p_.origin[2]},
+                   {"origin_x", origin[0]},
+                   {"origin_y", origin[1]},
+                   {"origin_z", origin[2]},
                    {"per_voxel", 1 / p_.voxel},
                    {"normal_offset", p_.normal_offset},
                    {"start", p_.start},
@@ -278,7 +351,8 @@ class ConeTracing {
                   {{"ANISOTROPIC", p_.variant == ConeVariant::anisotropic},
                    {"RADIANCE", radiance},
                    {"OCCLUSION", !occlusion ? 0 : p_.gamma > 0 ? 2 : 1},
-                   {"SKIP_EMPTY", p_.skip_empty}},
+                   {"SKIP_EMPTY", p_.skip_empty},
+                   {"OWN_LENGTH", p_.clipmap_own_length}},
                   slots);
     const double receivers = static_cast<double>(p_.width) * p_.height;
     const double volumes = static_cast<double>(texels(p_.extent) + cone_trace_coarse_texels(p_));

@@ -58,6 +58,17 @@ struct ConeTraceParams {
                                           // far from 0, rebase receivers and origin on the host
   double voxel = 1;                  // side of a finest voxel, scene units, > 0
 
+  // A clipmap in place of a pyramid, as voxelize's moving windows fill it: levels of the same extent (multiples of 8, from
+  // 16 on), each with voxels twice as wide as those of the level before, whose windows lie one in another
+  // (cone_trace_windows); isotropic, in buffers. A sample takes the coarser of the level that fits the cone and of the
+  // finest window that holds it; lengths that count voxels count those that the windows hold there.
+  std::vector<std::array<int, 3>> clipmap = {};  // first voxel of each level's window, in voxels of the level from `origin`,
+                                     // finest first, -2^20..2^20; 2..16 levels. Empty: a pyramid
+  double clipmap_border = 0;         // voxels over which a level gives way to the next at its window's sides, 0.5..extent / 4;
+                                     // 0: an eighth of the least extent
+  bool clipmap_own_length = true;    // opacity is per voxel of its level, as levels that are voxelized each have it; false:
+                                     // per finest voxel, as the levels of an isotropic pyramid have it
+
   std::vector<Cone> cones = {};      // empty: cone_set(6); at most 64
   int pattern_x = 1;                 // 1..64: interleaved sampling (Keller and Heidrich 2001): the cones are dealt to the
   int pattern_y = 1;                 // pattern_x * pattern_y receivers of a tile, which together have the whole set
@@ -101,6 +112,7 @@ constexpr int cone_outcomes = 9;
 /// - `fine`: level 0, premultiplied radiance and opacity, [z][y][x], tightly packed (Input::image: a 3-D image);
 /// - `coarse` (levels > 1): all further levels in one buffer, at cone_trace_level_offset(); or one 3-D image of
 ///   cone_trace_atlas_extent(), each level at cone_trace_atlas_offset();
+/// - `clipmap` (a clipmap, in place of both): all levels one after the other, voxel v of a level's world at v mod extent;
 /// - `receivers`: two vec4 each: position (scene units) and roughness; normal (any length) and 0. f32x4;
 /// - `views` (specular): a vec4 each, the direction to the eye, any length;
 /// - `irradiance` (written; radiance or occlusion): a vec4 each: irradiance, and visibility 0..1 (1 - occlusion). What is
@@ -110,6 +122,10 @@ constexpr int cone_outcomes = 9;
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const ConeTraceParams& params);
 Result<Plan> plan(const ConeTraceParams& params, const Profile& profile);
+
+/// Windows of a clipmap about a place (scene units): as near as whole voxels of each level come. `params`: extent, origin, voxel.
+std::vector<std::array<int, 3>> cone_trace_windows(const ConeTraceParams& params, const std::array<double, 3>& centre,
+                                                   int levels);
 
 /// Levels that are read, and the extent of one in texels, as mip_build makes them. `params` must be valid.
 int cone_trace_levels(const ConeTraceParams& params);

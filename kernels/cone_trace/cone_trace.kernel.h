@@ -115,13 +115,82 @@ FN vec2 within(vec2 range, float p, float d, float n) {
 FN vec4 crossed(vec4 v, float k_step) { return extinction_part(v.w, k_step) * v; }
 FN bool is_empty(vec4 v) { return SKIP_EMPTY != 0 && v.x + v.y + v.z + v.w == 0.0f; }
 
+#ifdef CLIPMAP
+// p in voxels of a level, from the corner of its window.
+FN vec3 in_window(CTX, int level, vec3 p) {
+    const int w = 8 * level;
+    return table(windows, w + 6) * (p - vec3(table(windows, w), table(windows, w + 1), table(windows, w + 2)));
+}
+FN vec4 level_at(CTX, int level, vec3 p) {
+    const ivec3 e = finest(ctx);
+    const vec3 r = in_window(ctx, level, p);
+    const vec3 q = vec3(in_box(r.x, e.x), in_box(r.y, e.y), in_box(r.z, e.z));
+    const ivec3 c = ivec3(int(q.x), int(q.y), int(q.z));
+    const vec3 f = vec3(q.x - float(c.x), q.y - float(c.y), q.z - float(c.z));
+    const int w = 8 * level;
+    const ivec3 turn = ivec3(int(table(windows, w + 3)), int(table(windows, w + 4)), int(table(windows, w + 5)));
+    const ivec3 low = torus(c + turn, e);
+    const ivec3 high = torus(min(c + 1, e - 1) + turn, e);
+    const int x = high.x - low.x;
+    const int y = (high.y - low.y) * e.x;
+    const int z = (high.z - low.z) * e.x * e.y;
+    const int corner = ((level * e.z + low.z) * e.y + low.y) * e.x + low.x;
+    return CELL(fine, corner);
+}
+// Level of the finest window that holds p, and up to 1 more where it gives way to the next.
+FN float held_at(CTX, vec3 p) {
+    const ivec3 n = finest(ctx);
+    for (int level = 0; level + 1 < params.levels; ++level) {
+        const vec3 q = in_window(ctx, level, p);
+        const vec3 left = min(q, vec3(float(n.x), float(n.y), float(n.z)) - q);
+        const float inside = min(left.x, min(left.y, left.z)) - 0.5f;  // look-ups end at the outermost centres
+        if (inside > 0.0f) return float(level) + max(0.0f, 1.0f - inside * table(windows, 8 * level + 7));
+    }
+    return float(params.levels - 1);
+}
+// Width of the voxels there, in finest ones.
+FN float voxel_at(CTX, vec3 p) {
+    const float held = held_at(ctx, p);
+    const int level = int(held);
+    return (1.0f + held - float(level)) / table(windows, 8 * level + 6);
+}
+FN float per_length(CTX, int level) { return OWN_LENGTH != 0 ? table(windows, 8 * level + 6) : 1.0f; }
+
+// What a step at p adds: the level is the coarser of what the width asks for and of what the windows hold there.
+FN vec4 step_of_clipmap(CTX, vec3 p, float width, float step) {
+    int level = 0;
+    while (level + 1 < params.levels && width * table(windows, 8 * level + 6) >= 2.0f) ++level;
+    const float wider = width * table(windows, 8 * level + 6);
+    float f = wider > 1.0f && level + 1 < params.levels ? log2_part(wider) : 0.0f;
+    const float held = held_at(ctx, p);
+    if (held > float(level) + f) {
+        level = int(held);
+        f = held - float(level);
+    }
+    if (f == 0.0f) return crossed(level_at(ctx, level, p), step * per_length(ctx, level));
+    const vec4 v = level_at(ctx, level + 1, p);
+    if (is_empty(v)) return v;
+    return blend(crossed(level_at(ctx, level, p), step * per_length(ctx, level)),
+                 crossed(v, step * per_length(ctx, level + 1)), f);
+}
+// Where the outermost window begins and ends; widths count as there.
+#define LOWEST vec3(table(windows, 8 * params.levels - 8), table(windows, 8 * params.levels - 7), table(windows, 8 * params.levels - 6))
+#define OUTERMOST (1.0f / table(windows, 8 * params.levels - 2))
+#define VOXEL_AT(p) voxel_at(ctx, p)
+#else
+#define LOWEST vec3(0.0f, 0.0f, 0.0f)
+#define OUTERMOST 1.0f
+#define VOXEL_AT(p) 1.0f
+#endif
+
 // Radiance (with what the environment adds) and occlusion seen along d from p, in finest voxels. `width`: of the voxels
 // that are looked up; those of a level are `size` = 2^level wide.
 FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     const ivec3 n = finest(ctx);
-    vec2 range = within(vec2(params.start, params.reach), p.x, d.x, float(n.x));
-    range = within(range, p.y, d.y, float(n.y));
-    range = within(range, p.z, d.z, float(n.z));
+    const vec3 from = p - LOWEST;
+    vec2 range = within(vec2(params.start * VOXEL_AT(p), params.reach), from.x, d.x, OUTERMOST * float(n.x));
+    range = within(range, from.y, d.y, OUTERMOST * float(n.y));
+    range = within(range, from.z, d.z, OUTERMOST * float(n.z));
     const bool near = max(abs(p.x), max(abs(p.y), abs(p.z))) <= FARTHEST;
     const float span = near ? range.y - range.x : -1.0f;
     const vec3 entry = vec3(p.x + range.x * d.x, p.y + range.x * d.y, p.z + range.x * d.z);
@@ -136,7 +205,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     float step;
     float width;
 #define NEXT_STEP \
-    step = min(params.step_scale * max(1.0f, spread * (range.x + t)), span - t); \
+    step = min(params.step_scale * max(VOXEL_AT(entry + t * d), spread * (range.x + t)), span - t); \
     width = spread * (range.x + t + 0.5f * step);
 #define GOES_ON (t < span && 1.0f - sum.w > params.stop && steps < params.step_cap)
 #define SAMPLE_PLACE \
@@ -152,6 +221,13 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     }
     NEXT_STEP
 
+#ifdef CLIPMAP
+    while (GOES_ON) {
+        SAMPLE_PLACE
+        LOOKED_UP(1)
+        ACCUMULATE(step_of_clipmap(ctx, at, width, step))
+    }
+#else
     // The finest level alone; between it and the next; between two coarse levels.
     while (GOES_ON && (width <= 1.0f || params.levels == 1)) {
         SAMPLE_PLACE
@@ -200,6 +276,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
         size = 2.0f * size;
         per_size = 0.5f * per_size;
     }
+#endif
 
 #if COUNT
     atomic_add(counters, LOOK_UPS, uint(look_ups));
@@ -238,9 +315,9 @@ FN vec3 tangent_of(vec3 n) {
 // Receivers' places in voxels. Two vec4 a receiver: position and roughness; normal.
 FN vec3 place_of(CTX, int i, vec3 n) {
     const vec4 place = load(receivers, 2 * i);
-    return vec3((place.x - params.origin_x) * params.per_voxel + params.normal_offset * n.x,
-                (place.y - params.origin_y) * params.per_voxel + params.normal_offset * n.y,
-                (place.z - params.origin_z) * params.per_voxel + params.normal_offset * n.z);
+    const vec3 p = vec3((place.x - params.origin_x) * params.per_voxel, (place.y - params.origin_y) * params.per_voxel,
+                        (place.z - params.origin_z) * params.per_voxel);
+    return p + params.normal_offset * VOXEL_AT(p) * n;
 }
 
 #if SPECULAR

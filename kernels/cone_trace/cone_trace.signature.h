@@ -1,5 +1,5 @@
 /* BUILD
-   math: opacity extinction
+   math: opacity extinction torus
    module f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=0
    module count_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=1
    module texels_f32x4: KIND=TEXELS PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=0
@@ -22,6 +22,18 @@
    module specular_texels_unorm8x4: KIND=TEXELS PIXEL=unorm8x4 SAMPLED=0 SPECULAR=1 COUNT=0
    module specular_sampled: KIND=SAMPLED3D PIXEL=f32x4 SAMPLED=1 SPECULAR=1 COUNT=0
    module specular_count_sampled: KIND=SAMPLED3D PIXEL=f32x4 SAMPLED=1 SPECULAR=1 COUNT=1
+   module clipmap_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=0 CLIPMAP=1
+   module clipmap_f16x4: KIND=READ PIXEL=f16x4 SAMPLED=0 SPECULAR=0 COUNT=0 CLIPMAP=1
+   module clipmap_unorm8x4: KIND=READ PIXEL=unorm8x4 SAMPLED=0 SPECULAR=0 COUNT=0 CLIPMAP=1
+   module count_clipmap_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=1 CLIPMAP=1
+   module count_clipmap_f16x4: KIND=READ PIXEL=f16x4 SAMPLED=0 SPECULAR=0 COUNT=1 CLIPMAP=1
+   module count_clipmap_unorm8x4: KIND=READ PIXEL=unorm8x4 SAMPLED=0 SPECULAR=0 COUNT=1 CLIPMAP=1
+   module specular_clipmap_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=1 COUNT=0 CLIPMAP=1
+   module specular_clipmap_f16x4: KIND=READ PIXEL=f16x4 SAMPLED=0 SPECULAR=1 COUNT=0 CLIPMAP=1
+   module specular_clipmap_unorm8x4: KIND=READ PIXEL=unorm8x4 SAMPLED=0 SPECULAR=1 COUNT=0 CLIPMAP=1
+   module specular_count_clipmap_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=1 COUNT=1 CLIPMAP=1
+   module specular_count_clipmap_f16x4: KIND=READ PIXEL=f16x4 SAMPLED=0 SPECULAR=1 COUNT=1 CLIPMAP=1
+   module specular_count_clipmap_unorm8x4: KIND=READ PIXEL=unorm8x4 SAMPLED=0 SPECULAR=1 COUNT=1 CLIPMAP=1
 */
 // Lengths count finest voxels, except where the name says otherwise. Spread of a cone: width of the voxels that it looks up
 // by distance, 2 tan(aperture/2) times the footprint.
@@ -56,11 +68,20 @@
     _(0, int, ANISOTROPIC, 0)  /* 1: coarse levels are six directional volumes */ \
     _(1, int, RADIANCE, 1)     /* 0: only occlusion is wanted */ \
     _(2, int, OCCLUSION, 1)    /* 0: only radiance is wanted; 1: gamma is 0; 2: it is not */ \
-    _(3, int, SKIP_EMPTY, 0)   /* 1: where the coarser of two levels is empty, the finer is not read */
+    _(3, int, SKIP_EMPTY, 0)   /* 1: where the coarser of two levels is empty, the finer is not read */ \
+    _(10, int, OWN_LENGTH, 1)  /* clipmap: opacity is per voxel of the level; 0: of the finest */
 #if COUNT
 #define COUNTERS(_) _(UPDATE, 6, uint, counters)
 #else
 #define COUNTERS(_)
+#endif
+// A clipmap's levels stand one after the other in `fine`, all of the extent of the finest. Eight floats a level: the first
+// voxel of its window, in finest voxels from that of the finest window; where that is stored; 1 / the width of its voxels
+// (in finest ones); 1 / the voxels over which it gives way to the next.
+#ifdef CLIPMAP
+#define WINDOWED(_) _(UNIFORM, 9, 128, windows)
+#else
+#define WINDOWED(_)
 #endif
 #if SPECULAR
 #define GATHERED specular
@@ -79,4 +100,5 @@
     _(KIND, 1, PIXEL, coarse) \
     _(READ, 2, vec4, receivers) \
     RECEIVED(_) \
+    WINDOWED(_) \
     COUNTERS(_)
