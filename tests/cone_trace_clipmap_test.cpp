@@ -245,20 +245,21 @@ TEST(ConeTraceClipmap, AHomogeneousMediumHasNoSeam) {
 }
 
 // A floor under a lit ceiling, both opaque and one voxel thick at every level as voxelize makes them: what receivers on the
-// floor and under the ceiling get, as they cross the windows' borders.
+// floor get as they cross the windows' borders; 1 with infinitely fine voxels. The floor lies near the lower side of
+// its voxels, so that cones begin within reach of their interpolation, which hides the more the wider they are.
 TEST(ConeTraceClipmap, SeamsInAHallAreBounded) {
   const int n = 32;
   ConeTraceParams p = clipmap_params(n, 3, {0, 0, 0});
   p.environment = {0.5, 0.5, 0.5};
-  const int height = 6;  // of the ceiling, from the floor at 0: in the finest window
+  const double height = 9.3;  // of the ceiling: in the finest window, as the floor
   const Values volume = stored(p, [&](int level, Voxel v) {
-    const auto touches = [&](int y) { return (v[1] << level) <= y && y <= ((v[1] + 1) << level); };
-    const double a = touches(-1) || touches(height) ? 1 : 0, lit = touches(height) ? 1 : 0;
+    const auto touches = [&](double y) { return std::ldexp(v[1], level) <= y && y <= std::ldexp(v[1] + 1, level); };
+    const double a = touches(0.3) || touches(height) ? 1 : 0, lit = touches(height) ? 1 : 0;
     return std::array<double, 4>{lit, 0.5 * lit, 0.25 * lit, a};
   });
   p.width = 121;
   Values receivers;
-  for (int i = 0; i < p.width; ++i) add_receiver(receivers, {0.5 * i - 30, 0.0, 0.7}, {0, 1, 0});
+  for (int i = 0; i < p.width; ++i) add_receiver(receivers, {0.5 * i - 30, 0.3, 0.7}, {0, 1, 0});
   for (const std::string& device : test_devices()) {
     const ConeResult r = clipmap_trace(test_context(device), p, volume, receivers);
     double least = 1e9, most = 0, jump = 0;
@@ -268,9 +269,30 @@ TEST(ConeTraceClipmap, SeamsInAHallAreBounded) {
       most = std::max(most, e);
       if (i > 0) jump = std::max(jump, std::fabs(e - r.irradiance[4 * (i - 1)] / pi));
     }
-    EXPECT_GE(least, 0.95) << device;
+    EXPECT_GE(least, 0.75) << device;
     EXPECT_LE(most, 1 + 1e-5) << device;
-    EXPECT_LE(jump, 0.01) << device << ": between receivers half a voxel apart";
+    EXPECT_LE(jump, 0.06) << device << ": between receivers half a voxel apart";
+  }
+}
+
+// Levels that contradict each other: what a thin cone sees goes from one to the next over the border's width, evenly.
+TEST(ConeTraceClipmap, LevelsGiveWayToEachOtherEvenly) {
+  ConeTraceParams p = clipmap_params(16, 3, {0, 0, 0});
+  p.clipmap_border = 2;
+  p.cones = {{{0, 0, 1}, 1, 0}};
+  p.normal_offset = 0;
+  p.max_distance = 1;
+  const Values volume = stored(p, [](int level, Voxel) { return std::array<double, 4>{1.0 + level, 0, 0, 1}; });
+  p.width = 20 * 16;
+  Values receivers;
+  for (int i = 0; i < p.width; ++i) add_receiver(receivers, {i / 16.0, 0.5, 0.5}, {0, 1, 0});
+  for (const std::string& device : test_devices()) {
+    const ConeResult r = clipmap_trace(test_context(device), p, volume, receivers);
+    for (int i = 0; i < p.width; ++i) {
+      const double x = i / 16.0, into[] = {x - (8 - 2.5), (x - (16 - 5)) / 2};  // voxels of the two windows' borders
+      const double level = std::clamp(into[0] / 2, 0.0, 1.0) + std::clamp(into[1] / 2, 0.0, 1.0);
+      EXPECT_NEAR(r.irradiance[4 * i] / pi, 1 + level, 1e-5) << device << " at " << x;
+    }
   }
 }
 
