@@ -156,8 +156,8 @@ FN float voxel_at(CTX, vec3 p) {
 }
 FN float per_length(CTX, int level) { return OWN_LENGTH != 0 ? table(windows, 8 * level + 6) : 1.0f; }
 
-// What a step at p adds: the level is the coarser of what the width asks for and of what the windows hold there.
-FN vec4 step_of_clipmap(CTX, vec3 p, float width, float step) {
+// The coarser of the levels that the width asks for and that the windows hold at p, and the share of the next.
+FN vec2 levels_at(CTX, vec3 p, float width) {
     int level = 0;
     while (level + 1 < params.levels && width * table(windows, 8 * level + 6) >= 2.0f) ++level;
     const float wider = width * table(windows, 8 * level + 6);
@@ -167,11 +167,7 @@ FN vec4 step_of_clipmap(CTX, vec3 p, float width, float step) {
         level = int(held);
         f = held - float(level);
     }
-    if (f == 0.0f) return crossed(level_at(ctx, level, p), step * per_length(ctx, level));
-    const vec4 v = level_at(ctx, level + 1, p);
-    if (is_empty(v)) return v;
-    return blend(crossed(level_at(ctx, level, p), step * per_length(ctx, level)),
-                 crossed(v, step * per_length(ctx, level + 1)), f);
+    return vec2(float(level), f);
 }
 // Where the outermost window begins and ends; widths count as there.
 #define LOWEST vec3(table(windows, 8 * params.levels - 8), table(windows, 8 * params.levels - 7), table(windows, 8 * params.levels - 6))
@@ -224,8 +220,18 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
 #ifdef CLIPMAP
     while (GOES_ON) {
         SAMPLE_PLACE
+        const vec2 which = levels_at(ctx, at, width);
+        const int level = int(which.x);
+        const float k = per_length(ctx, level);
         LOOKED_UP(1)
-        ACCUMULATE(step_of_clipmap(ctx, at, width, step))
+        vec4 v = level_at(ctx, which.y > 0.0f ? level + 1 : level, at);
+        if (which.y == 0.0f) {
+            v = crossed(v, step * k);
+        } else if (!is_empty(v)) {
+            LOOKED_UP(1)
+            v = blend(crossed(level_at(ctx, level, at), step * k), crossed(v, step * per_length(ctx, level + 1)), which.y);
+        }
+        ACCUMULATE(v)
     }
 #else
     // The finest level alone; between it and the next; between two coarse levels.
