@@ -1,0 +1,75 @@
+// Edge-preserving filters: averages whose weights fall with distance in the image and with differences of colour, depth,
+// normal and luminance (Tomasi and Manduchi 1998; Petschnigg et al. 2004; Dammertz et al. 2010; Schied et al. 2017).
+#pragma once
+#include <luxel/gaussian_blur.h>
+#include <luxel/plan.h>
+
+namespace luxel {
+
+enum class BilateralVariant {
+  direct,     // (2R/step + 1)^2 taps
+  separable,  // rows, then columns: 2 (2R/step + 1) taps, an approximation
+  atrous      // levels of 25 (or 9) taps, their distance doubled from level to level (Dammertz et al. 2010)
+};
+
+enum class RangeTerm { off, self, guide };  // differences of colour: none, of src, of the image `guide`
+enum class RangeNorm { l2, l1 };            // sqrt of the sum of squares, or sum of absolute differences (OpenCV's)
+enum class FilterWindow { square, circle };
+
+/// Differences of depth. plane: from the plane through p, measured in footprints of a pixel at p; exact on planes.
+/// svgf: from p, measured by the gradient of z at p (Schied et al. 2017, eq. 3).
+enum class DepthTerm { off, plane, svgf };
+
+struct BilateralParams {
+  int width = 0;       // pixels, 1..65535
+  int height = 0;      // pixels, 1..65535
+  int src_stride = 0;  // pixels from row to row of src, width..1048576; 0: width
+  int dst_stride = 0;  // the same of dst
+  BilateralVariant variant = BilateralVariant::direct;
+
+  double sigma_space = 3;  // pixels, 0..infinity (all taps alike); 0: the result is the input
+  int radius = -1;         // pixels, 0..96 (separable 0..1024); -1: ceil(3 sigma_space)
+  int step = 1;            // pixels from tap to tap, 1..16; taps beyond the radius are not taken
+  FilterWindow window = FilterWindow::square;
+  bool adaptive = false;   // separable: the outer half of the window in pairs of averaged pixels
+
+  int levels = 5;          // atrous: 1..6; the taps of level i lie 2^i pixels apart
+  int taps = 5;            // atrous: 5 (B3 spline, 25 taps a level) or 3 (9 taps); sigma_space, radius, step count not
+
+  RangeTerm range = RangeTerm::self;
+  double sigma_range = 0.1;  // in units of the image, 0..infinity (no colour term); 0: the result is the input
+  RangeNorm range_norm = RangeNorm::l2;
+  Format guide_format = Format::f32x4;  // of `guide`: as format; three channels of x4 count
+
+  DepthTerm depth = DepthTerm::off;
+  double sigma_depth = 1;     // plane: footprints off the plane for each pixel of distance; svgf: gradients; above 0
+  double footprint = 0.001;   // width of a pixel at distance 1, 2 tan(fov/2)/height; above 0
+
+  bool normal = false;
+  double sigma_normal = 128;             // power of the cosine, 0.01..4096
+  Format normal_format = Format::f32x4;  // of `normals`: f32x4 or f16x4 (-1..1), unorm8x4 (n/2 + 1/2)
+
+  bool luminance = false;         // weights by luminance over its standard deviation; asks for `variance`
+  double sigma_luminance = 4;     // standard deviations, above 0
+  double epsilon = 1e-6;          // luminance added to what differences are divided by; above 0
+  bool carry_variance = false;    // atrous: `variance_out`, the variance of the result
+
+  Border border = Border::clamp;
+  Format format = Format::f32x4;  // of src and dst: f32x1, f32x2, f32x4, f16x4, unorm8x4
+  bool alpha = false;             // x4: the fourth channel is filtered and part of colour; else it is copied
+  bool count = false;             // `counters`: pixels that are not finite in src [0], guide [1], depth that is no
+                                  // surface [2] (sky, zero, negative, NaN), normals that are zero or not finite [3]
+};
+
+/// Resources of the plan: `src`, `dst`; where terms ask for them `guide` (colours), `depth` (f32x1, view space; 1e10 and
+/// more is sky), `normals`, `variance` (f32x1, of src's luminance), `variance_out` (f32x1), `counters` (4 uint, which the
+/// caller clears). Guides are width * height pixels, rows without gaps. A pixel that is not finite keeps its value and
+/// weighs nothing elsewhere; so does one whose guides are no number or no surface.
+/// Errors: invalid_argument, naming field, value and range.
+Status validate(const BilateralParams& params);
+Result<Plan> plan(const BilateralParams& params, const Profile& profile);
+
+/// Taps on each side that weigh at least 2^-64 beside the centre, `step` apart; 0 where the result is the input.
+int effective_taps(const BilateralParams& params);
+
+}  // namespace luxel

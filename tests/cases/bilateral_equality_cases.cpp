@@ -1,0 +1,72 @@
+// Results that must be equal to those of the C++ execution, bit for bit, for every term, format, border and variant.
+#include <fmt/format.h>
+
+#include "tests/cases/bilateral_cases.h"
+#include "tests/cases/bilateral_support.h"
+#include "tests/cases/compare.h"
+#include "tests/cases/gaussian_blur_support.h"
+
+namespace luxel::cases {
+namespace {
+
+Case equal_to_cpp(std::string name, const BilateralParams& p) {
+  return {"", "bits, " + name, "the same bits as the C++ execution in float (values that differ)", 0,
+          [=](Context& context) -> Result<double> {
+            const BilateralImages images = bilateral_images(p, 20, true);
+            const auto out = filter(context, p, images);
+            if (!out) return out.status();
+            const auto cpu = Context::open("cpu:float");
+            if (!cpu) return cpu.status();
+            const auto expected = filter(*cpu.value(), p, images);
+            if (!expected) return expected.status();
+            return count_different(out.value().dst, expected.value().dst);
+          },
+          false, not_double};
+}
+
+}  // namespace
+
+void add_bilateral_equality_cases(std::vector<Case>& cases) {
+  for (const std::string terms : {"", "c", "g", "d", "s", "n", "l", "cdnl"})
+    cases.push_back(equal_to_cpp(fmt::format("terms '{}'", terms), bilateral_params(67, 43, terms)));
+  for (const Format format : pixel_formats)
+    for (const Border border : borders) {
+      cases.push_back(equal_to_cpp(fmt::format("{}, {}", name(format), name(border)), bilateral_params(43, 29, "c", format, border)));
+      // A format and a border meet only in the loads and stores: a row and a column of the table nearly say it all.
+      cases.back().slow = format != Format::f32x4 && border != Border::clamp;
+    }
+  for (const Format format : pixel_formats) {
+    BilateralParams p = bilateral_params(43, 29, "gn", format);
+    p.guide_format = format;
+    p.normal_format = channels(format) == 4 ? format : Format::f32x4;
+    cases.push_back(equal_to_cpp(fmt::format("guides of {}", name(format)), p));
+  }
+  for (const BilateralVariant variant : {BilateralVariant::separable, BilateralVariant::atrous}) {
+    BilateralParams p = bilateral_params(67, 43, "cdnl");
+    p.variant = variant;
+    cases.push_back(equal_to_cpp(fmt::format("variant {}", static_cast<int>(variant)), p));
+  }
+  BilateralParams p = bilateral_params(67, 43, "c");
+  p.variant = BilateralVariant::separable;
+  p.adaptive = true;
+  p.radius = 9;
+  cases.push_back(equal_to_cpp("adaptive", p));
+  p = bilateral_params(67, 43, "c");
+  p.window = FilterWindow::circle;
+  p.range_norm = RangeNorm::l1;
+  p.radius = 9;
+  p.step = 2;
+  cases.push_back(equal_to_cpp("circle, L1, steps of 2", p));
+}
+
+std::vector<Case> bilateral_cases() {
+  std::vector<Case> cases;
+  add_bilateral_formula_cases(cases);
+  add_bilateral_value_cases(cases);
+  add_bilateral_guide_cases(cases);
+  add_bilateral_equality_cases(cases);
+  for (Case& c : cases) c.kernel = "bilateral";
+  return cases;
+}
+
+}  // namespace luxel::cases
