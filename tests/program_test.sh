@@ -79,7 +79,7 @@ END
 # ---- Help, lists, and words that nobody knows
 expect 0 'gaussian_blur' "$luxel" --help
 expect 0 '^luxel [0-9]+\.[0-9]+\.[0-9]+$' "$luxel" --version
-for command in devices list bench report gaussian_blur mip_build cone_trace; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
+for command in devices list bench report gaussian_blur bilateral mip_build cone_trace; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
 expect 0 'sigma.*0\.\.10000' "$luxel" gaussian_blur --help
 expect 0 'radius.*0\.\.4095.*default ceil\(3 sigma\)' "$luxel" gaussian_blur --help
 expect 0 'clamp\|mirror\|wrap\|zero; default clamp' "$luxel" gaussian_blur --help
@@ -366,6 +366,37 @@ assert all(abs(x - 1) < 1e-6 for x in read('specular_%s.npy' % d)[1][0:3])
 END
   done
 done
+
+# ---- bilateral
+python <<'END'
+w, h = 24, 16
+step = [0.25 + (0.5 if x >= w // 2 else 0) + 0.01 * ((x * 7 + y * 13) % 5) for y in range(h) for x in range(w)]
+write('edge.npy', (h, w), step)
+write('edge3.npy', (h, w, 3), [v for v in step for c in range(3)])
+write('depth.npy', (h, w), [1 if i % w < w // 2 else 1e10 for i in range(w * h)])
+write('normal.npy', (h, w, 3), [v for i in range(w * h) for v in (0, 0, 1)])
+write('small.npy', (2, 2), [1, 2, 3, 4])
+END
+filter=("$luxel" bilateral --in edge3.npy -o filtered.npy)
+for device in $devices; do
+  expect 0 'bilateral direct f32x4 24x16, clamp on ' "${filter[@]}" --device "$device" --sigma-space 2 --radius 4 --sigma-range 0.1 --window circle --range-norm l1
+  cp filtered.npy "bilateral_$device.npy"
+  same bilateral_cpu.npy "bilateral_$device.npy"
+done
+expect 0 '192 pixels without a surface' "${filter[@]}" --device cpu --depth depth.npy --normal normal.npy --footprint 0.01 --variant atrous --levels 2 --range off
+python <<'END'
+(shape, a), (_, b) = read('filtered.npy'), read('edge3.npy')
+assert shape == (16, 24, 3)
+sky = [i for i in range(len(a)) if i // 3 % 24 >= 12]
+assert all(a[i] == b[i] for i in sky)
+END
+expect 0 'bilateral separable f32x1' "$luxel" bilateral --device cpu --in edge.npy --variant separable --adaptive --sigma-range 0 -o filtered.npy
+same edge.npy filtered.npy
+expect 2 '--range is guide; expected --guide' "${filter[@]}" --range guide
+expect 2 'small\.npy: has 2x2 pixels; --depth expects those of --in, 24x16' "${filter[@]}" --depth small.npy
+expect 2 'depth\.npy: has 1 channels; --normal expects 3 or more' "${filter[@]}" --normal depth.npy
+expect 2 'BilateralParams\.radius is 500; expected -1\.\.96' "${filter[@]}" --radius 500
+expect 2 'missing\.npy' "${filter[@]}" --guide missing.npy
 
 # ---- Real files
 if [[ -d $data/photos ]]; then
