@@ -62,7 +62,7 @@ std::uint64_t bits_of(const Values& v) {
   return hash_bytes(bytes);
 }
 
-Result<Oracle> compute_oracle(Session& session, const ConeSetting& s) {
+Result<std::vector<Oracle>> compute_oracle(Session& session, const ConeSetting& s) {
   const auto stored = run_on(session.cpu_float(), s, s.params.format);
   if (!stored) return stored.status();
   const auto f32 = s.params.format == Format::f32x4 ? stored : run_on(session.cpu_float(), s, Format::f32x4);
@@ -75,8 +75,8 @@ Result<Oracle> compute_oracle(Session& session, const ConeSetting& s) {
   const Values& x = exact.value();
   for (std::size_t i = 0; i < x.size(); ++i)
     if (i % 4 != 3) product += (x[i] - t.first[i]) * (x[i] - t.second[i]) / (0.75 * static_cast<double>(x.size()));
-  return Oracle{bits_of(stored.value()), apart(f32.value(), x, t.mean), apart(stored.value(), f32.value(), t.mean),
-                std::sqrt(std::max(0.0, product)) / t.mean};
+  return std::vector<Oracle>{{bits_of(stored.value()), apart(f32.value(), x, t.mean),
+                              apart(stored.value(), f32.value(), t.mean), std::sqrt(std::max(0.0, product)) / t.mean}};
 }
 
 std::string size_of(const ConeSetting& s) {
@@ -95,47 +95,26 @@ Status measure(Session& session, ConeScenes& scenes, const ConeSetting& s) {
   ms.insert(ms.end(), pair.value().b.begin(), pair.value().b.end());
   const Result<Values> result = scene.value()->read("irradiance");
   if (!result) return result.status();
-  const Result<Oracle> oracle = session.oracle(where, [&] { return compute_oracle(session, s); });
-  if (!oracle) return oracle.status();
-  const bool equal = bits_of(result.value()) == oracle.value().bits;
-  double device = 0;
-  if (!equal) {
-    const auto expected = run_on(session.cpu_float(), s, p.format);
-    if (!expected) return expected.status();
-    device = apart(result.value(), expected.value(), truth_of(s).mean);
-  }
-  if (p.input == Input::buffer) session.promise_bits("cone_trace", equal, where);
+  const auto errors = session.errors(
+      where, {"root mean square of x - rays through the voxels, over their mean"}, bits_of(result.value()),
+      p.input == Input::buffer, [&] { return compute_oracle(session, s); },
+      [&]() -> Result<std::vector<double>> {
+        const auto expected = run_on(session.cpu_float(), s, p.format);
+        if (!expected) return expected.status();
+        return std::vector{apart(result.value(), expected.value(), truth_of(s).mean)};
+      });
+  if (!errors) return errors.status();
   const Result<Plan> made = plan(p, session.context().profile());
   if (!made) return made.status();
-  const double build = scene.value()->build_times().total;
-  session.row("frontier",
-              {{"kernel", "cone_trace"},
-               {"variant", name(p.variant)},
-               {"device", session.device()},
-               {"scene", s.world->name},
-               {"size", size_of(s)},
-               {"options", {{"format", luxel::name(p.format)}, {"input", p.input == Input::image ? "image" : "buffer"}}},
-               {"knobs",
-                {{"cones", s.set}, {"footprint", p.footprint}, {"step_scale", p.step_scale}, {"error", p.error}}},
-               {"time_ms",
-                {{"build", {{"median", build}, {"q1", build}, {"q3", build}, {"n", 1}}},
-                 {"update", nullptr},
-                 {"shade", to_json(summarise(ms))}}},
-               {"error",
-                {{"metric", "root mean square of x - rays through the voxels, over their mean"},
-                 {"rounding", oracle.value().rounding},
-                 {"storage", oracle.value().storage},
-                 {"device", device},
-                 {"method", oracle.value().method},
-                 {"discretization", nullptr},
-                 {"model", nullptr},
-                 {"stderr", nullptr}}},
-               {"bytes", made.value().bytes},
-               {"flops", nullptr},
-               {"memory_bytes", scene.value()->volume_bytes() + s.world->receivers.size() * 6},
-               {"on_frontier", nullptr},
-               {"group", fmt::format("cone_trace|{}|{}|{}|{}", session.device(), s.world->name, size_of(s),
-                                     luxel::name(p.format))}});
+  FrontierRow row{"cone_trace", name(p.variant), s.world->name, size_of(s),
+                  {{"format", luxel::name(p.format)}, {"input", p.input == Input::image ? "image" : "buffer"}},
+                  {{"cones", s.set}, {"footprint", p.footprint}, {"step_scale", p.step_scale}, {"error", p.error}},
+                  luxel::name(p.format), errors.value()[0]};
+  row.build = to_json(summarise({scene.value()->build_times().total}));
+  row.shade = to_json(summarise(ms));
+  row.bytes = made.value().bytes;
+  row.memory = scene.value()->volume_bytes() + s.world->receivers.size() * 6;
+  session.frontier(row);
   return {};
 }
 

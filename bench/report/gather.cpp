@@ -85,6 +85,9 @@ std::string take_line(Gathered& g, const std::string& line) {
     if (list == "busy") {
       entry["device"] = device["id"];
       g.flagged.push_back(entry);
+    } else if (list == "spent") {
+      entry["device"] = device["id"];
+      g.spent.push_back(entry);
     } else if (list == "pictures") {
       g.pictures.push_back(entry);
     } else if (list == "skipped" && entry.is_string()) {
@@ -117,6 +120,9 @@ Json assemble(Gathered g, Json machine) {
   mark_frontier(g.frontier);
   machine["guard"] = {{"best_gflops", g.best_guard}, {"threshold", 0.9}, {"flagged", g.flagged}};
   machine["skipped"] = g.skipped;
+  std::stable_sort(g.spent.begin(), g.spent.end(),
+                   [](const Json& a, const Json& b) { return a.at("seconds") > b.at("seconds"); });
+  machine["spent"] = std::move(g.spent);
   return {{"schema", schema_name},
           {"machine", std::move(machine)},
           {"devices", std::move(g.devices)},

@@ -68,7 +68,7 @@ const Values& truth_of(const GaussianBlurParams& p, const Values& src) {
 
 bool stores_less_than_f32(Format format) { return format == Format::f16x4 || format == Format::unorm8x4; }
 
-Result<Oracle> compute_oracle(Session& session, const BlurSetting& s, const Values& src, double full_scale) {
+Result<std::vector<Oracle>> compute_oracle(Session& session, const BlurSetting& s, const Values& src, double full_scale) {
   const auto apart = [&](const Values& a, const Values& b) { return distance(s.metric, full_scale, a, b); };
   const auto exact = outcome(session.cpu_double(), s.params, src);
   if (!exact) return exact.status();
@@ -79,7 +79,7 @@ Result<Oracle> compute_oracle(Session& session, const BlurSetting& s, const Valu
   oracle.method = apart(exact.value().values, truth_of(s.params, src));
   if (!stores_less_than_f32(s.params.format)) {
     oracle.rounding = apart(stored.value().values, exact.value().values);
-    return oracle;
+    return std::vector{oracle};
   }
   // The same arithmetic, stored in f32: what is left of the difference is the storage format's.
   GaussianBlurParams wide = s.params;
@@ -90,7 +90,7 @@ Result<Oracle> compute_oracle(Session& session, const BlurSetting& s, const Valu
   if (!unrounded) return unrounded.status();
   oracle.rounding = apart(unrounded.value().values, exact.value().values);
   oracle.storage = apart(stored.value().values, unrounded.value().values);
-  return oracle;
+  return std::vector{oracle};
 }
 
 Json options_of(const GaussianBlurParams& p) {
@@ -134,47 +134,27 @@ Status measure_blur(Session& session, const BlurSetting& s) {
   const auto bytes = run.bytes("dst");
   if (!bytes) return bytes.status();
 
-  const std::string key = where + " " + size + " " + name_of(s.metric);
-  const Result<Oracle> oracle = session.oracle(key, [&] { return compute_oracle(session, s, src, full_scale); });
-  if (!oracle) return oracle.status();
-  const Oracle& o = oracle.value();
-  double device = 0;
-  const bool equal = hash_bytes(bytes.value()) == o.bits;
-  if (!equal) {
-    const auto expected = outcome(session.cpu_float(), p, src);
-    if (!expected) return expected.status();
-    device = distance(s.metric, full_scale, cases::fetch(bytes.value(), p.format, session.context().real64()),
-                      expected.value().values);
-  }
-  if (p.variant != GaussianVariant::sampler) session.promise_bits("gaussian_blur", equal, where);
+  const auto errors = session.errors(
+      where + " " + size + " " + metric, {metric}, hash_bytes(bytes.value()), p.variant != GaussianVariant::sampler,
+      [&] { return compute_oracle(session, s, src, full_scale); },
+      [&]() -> Result<std::vector<double>> {
+        const auto expected = outcome(session.cpu_float(), p, src);
+        if (!expected) return expected.status();
+        const Values own = cases::fetch(bytes.value(), p.format, session.context().real64());
+        return std::vector{distance(s.metric, full_scale, own, expected.value().values)};
+      });
+  if (!errors) return errors.status();
   if (p.variant == GaussianVariant::separable && s.metric == BlurMetric::largest && !p.difference)
     session.promise_share("gaussian_blur", "rounding of the whole grid",
                           "float against double stays within (3R + 6) 2^-24 of the largest value",
-                          o.rounding / cases::rounding_bound(effective_radius(p)), where);
+                          errors.value()[0].rounding.get<double>() / cases::rounding_bound(effective_radius(p)), where);
 
-  session.row("frontier", {{"kernel", "gaussian_blur"},
-                           {"variant", cases::name(p.variant)},
-                           {"device", session.device()},
-                           {"scene", s.scene->name},
-                           {"size", size},
-                           {"options", options_of(p)},
-                           {"knobs", {{"sigma", p.sigma}, {"k", s.k}, {"radius", effective_radius(p)}}},
-                           {"time_ms", {{"build", nullptr}, {"update", nullptr}, {"shade", to_json(ms.value())}}},
-                           {"error",
-                            {{"metric", metric},
-                             {"rounding", o.rounding},
-                             {"storage", o.storage},
-                             {"device", device},
-                             {"method", o.method},
-                             {"discretization", nullptr},
-                             {"model", nullptr},
-                             {"stderr", nullptr}}},
-                           {"bytes", run.plan().bytes},
-                           {"flops", run.plan().flops},
-                           {"memory_bytes", run.memory_bytes()},
-                           {"on_frontier", nullptr},
-                           {"group", fmt::format("gaussian_blur|{}|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name,
-                                                 size, metric, name(p.format), cases::name(p.border), p.sigma)}});
+  FrontierRow row{"gaussian_blur", cases::name(p.variant), s.scene->name, size, options_of(p),
+                  {{"sigma", p.sigma}, {"k", s.k}, {"radius", effective_radius(p)}},
+                  fmt::format("{} {} {}", name(p.format), cases::name(p.border), p.sigma), errors.value()[0]};
+  row.shade = to_json(ms.value());
+  row.costs_of(run);
+  session.frontier(row);
   return {};
 }
 

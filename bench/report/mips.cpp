@@ -158,65 +158,33 @@ Status measure_mips(Session& session, const MipSetting& s, bool drift) {
   const auto result = read_all(run, session.context(), p);
   if (!result) return result.status();
 
-  // One computation serves the whole pyramid and each of its levels.
-  std::vector<Oracle> computed;
-  const auto oracle = [&](std::size_t index) {
-    return session.oracle(fmt::format("{} {}", where, index), [&]() -> Result<Oracle> {
-      if (computed.empty()) {
-        auto all = compute_oracles(session, s, src, full_scale, drift);
-        if (!all) return all.status();
-        computed = std::move(all).value();
-      }
-      return computed[index];
-    });
-  };
-  const Result<Oracle> whole = oracle(0);
-  if (!whole) return whole.status();
-  const bool equal = result.value().bits == whole.value().bits;
-  session.promise_bits("mip_build", equal, where);
-  Pyramid expected;
-  if (!equal) {
-    auto made = outcome(session.cpu_float(), s, src);
-    if (!made) return made.status();
-    expected = std::move(made).value().levels;
-  }
-
-  const auto row = [&](const std::string& metric, const Oracle& o, double device, Json knobs) {
-    session.row("frontier", {{"kernel", "mip_build"},
-                             {"variant", cases::name(p.variant)},
-                             {"device", session.device()},
-                             {"scene", s.scene->name},
-                             {"size", size},
-                             {"options", options_of(p)},
-                             {"knobs", std::move(knobs)},
-                             {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
-                             {"error",
-                              {{"metric", metric},
-                               {"rounding", o.rounding},
-                               {"storage", o.storage},
-                               {"device", device},
-                               {"method", o.method},
-                               {"discretization", nullptr},
-                               {"model", nullptr},
-                               {"stderr", nullptr}}},
-                             {"bytes", run.plan().bytes},
-                             {"flops", run.plan().flops},
-                             {"memory_bytes", run.memory_bytes()},
-                             {"on_frontier", nullptr},
-                             {"group", fmt::format("mip_build|{}|{}|{}|{}|{}|{}|{}|{}|{}", session.device(),
-                                                   s.scene->name, size, metric, cases::name(p.variant), name(p.format),
-                                                   static_cast<int>(p.sizes), p.ratio, static_cast<int>(p.samples))}});
-  };
-  row("max |x - t| / max |input|, all levels", whole.value(),
-      equal ? 0 : largest(result.value().levels, expected, full_scale),
-      {{"levels", mip_levels(p)}, {"single_pass", s.single_pass}});
-  for (int level = 1; drift && level <= mip_levels(p); ++level) {
-    const Result<Oracle> one = oracle(static_cast<std::size_t>(level));
-    if (!one) return one.status();
-    const std::string name = mip_level_name(level);
-    const double device = equal ? 0 : drift_of(result.value().levels.at(name), expected.at(name), p.format, full_scale);
-    row(fmt::format("|mean of x - t| in steps of the format, level {}", level), one.value(), device,
-        {{"levels", mip_levels(p)}, {"level", level}, {"single_pass", s.single_pass}});
+  std::vector<std::string> metrics{"max |x - t| / max |input|, all levels"};
+  for (int level = 1; drift && level <= mip_levels(p); ++level)
+    metrics.push_back(fmt::format("|mean of x - t| in steps of the format, level {}", level));
+  const auto errors = session.errors(
+      where, metrics, result.value().bits, true, [&] { return compute_oracles(session, s, src, full_scale, drift); },
+      [&]() -> Result<std::vector<double>> {
+        const auto expected = outcome(session.cpu_float(), s, src);
+        if (!expected) return expected.status();
+        const Pyramid &own = result.value().levels, &other = expected.value().levels;
+        std::vector<double> apart{largest(own, other, full_scale)};
+        for (int level = 1; drift && level <= mip_levels(p); ++level) {
+          const std::string name = mip_level_name(level);
+          apart.push_back(drift_of(own.at(name), other.at(name), p.format, full_scale));
+        }
+        return apart;
+      });
+  if (!errors) return errors.status();
+  for (std::size_t level = 0; level < metrics.size(); ++level) {
+    FrontierRow row{"mip_build", cases::name(p.variant), s.scene->name, size, options_of(p),
+                    {{"levels", mip_levels(p)}, {"single_pass", s.single_pass}},
+                    fmt::format("{} {} {} {} {}", cases::name(p.variant), name(p.format), static_cast<int>(p.sizes),
+                                p.ratio, static_cast<int>(p.samples)),
+                    errors.value()[level]};
+    if (level > 0) row.knobs["level"] = level;
+    row.build = to_json(ms.value());
+    row.costs_of(run);
+    session.frontier(row);
   }
   return {};
 }

@@ -70,6 +70,22 @@ void has_died(Gathered& gathered, Progress& progress, const std::string& what) {
   progress.line(what);
 }
 
+// Where the time of a device went.
+std::string longest_jobs(const Gathered& gathered, const std::string& device) {
+  std::vector<std::pair<double, std::string>> jobs;
+  double seconds = 0;
+  for (const Json& job : gathered.spent) {
+    if (job.at("device") != device) continue;
+    jobs.emplace_back(-job.at("seconds").get<double>(), job.at("label").get<std::string>());
+    seconds -= jobs.back().first;
+  }
+  std::sort(jobs.begin(), jobs.end());
+  std::string text = fmt::format("{}: {} jobs in {:.0f} s", device, jobs.size(), seconds);
+  for (std::size_t i = 0; i < std::min<std::size_t>(jobs.size(), 3); ++i)
+    text += fmt::format("{} {} ({:.1f} s)", i == 0 ? "; longest:" : ",", jobs[i].second, -jobs[i].first);
+  return text;
+}
+
 void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered,
              Progress& progress, std::ofstream& rows) {
   gathered.devices.push_back(device_row(device));
@@ -88,6 +104,7 @@ void measure(const Settings& s, const DeviceInfo& device, const std::string& nam
              fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
                          gathered.last_label.empty() ? "its start" : gathered.last_label, log));
   gathered.last_label.clear();
+  progress.line(longest_jobs(gathered, device.id));
 }
 
 Status write_file(const std::string& path, const std::string& text) {

@@ -26,6 +26,7 @@ Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& al
 struct Gathered {
   Json devices = Json::array(), flagged = Json::array(), pictures = Json::array();
   std::vector<Json> frontier;
+  std::vector<Json> spent;           // seconds of each job
   Json stability = Json::array(), left_out = Json::array(), peers = Json::array(), reproduction = Json::array();
   std::vector<std::string> skipped;  // files that were not there
   double best_guard = 0;

@@ -10,6 +10,14 @@
 #include <fmt/format.h>
 
 namespace luxel::report {
+namespace {
+
+constexpr double quick_pairs_ms = 300;  // what pairs of a quick report may take, where three take no longer
+
+// Labels begin with their kernel's name.
+std::string kernel_of(const std::string& label) { return label.substr(0, label.find(' ')); }
+
+}  // namespace
 
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
   std::uint64_t value = 0xcbf29ce484222325ull;
@@ -60,11 +68,14 @@ void Session::progress(std::size_t done, std::size_t of, const std::string& labe
 void Session::run(const std::vector<Job>& jobs) {
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     progress(i, jobs.size(), jobs[i].label);
+    const auto begin = std::chrono::steady_clock::now();
     const Status status = jobs[i].run();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    note("spent", {{"label", jobs[i].label}, {"seconds", spent.count()}});
     if (status) continue;
     note("problems", fmt::format("{}: {}", jobs[i].label, status.message()));
     if (status.code() == Code::unsupported) continue;
-    row("stability", {{"kernel", jobs[i].label.substr(0, jobs[i].label.find(' '))},
+    row("stability", {{"kernel", kernel_of(jobs[i].label)},
                       {"case", "runs: " + jobs[i].label},
                       {"device", device()},
                       {"promise", "every setting of the report runs: " + status.message()},
@@ -103,8 +114,8 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   const double one = std::max(1e-3, std::min(first.total, second.total));
   const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 400;
   const int repeat = std::clamp(static_cast<int>(std::ceil(sample_ms / one)), 1, 1000);
-  // Quartiles need five; where a run of the C++ execution takes long, three must do.
-  const int least = is_cpu() && one > 50 ? 3 : 5;
+  // Quartiles need five; where a run takes long on the C++ execution or a report is quick, three must do.
+  const int least = (is_cpu() || settings_.quick) && one > 50 ? 3 : 5;
   const int n = std::clamp(static_cast<int>(budget_ms / (one * repeat)), least, settings_.quick ? 9 : 21);
   return guarded(
       [&]() -> Result<Sample> {
@@ -120,9 +131,13 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
 }
 
 Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const std::string& label) {
-  for (const Timed* warm : {&a, &b, &a, &b})
-    if (const Result<double> ms = (*warm)(); !ms) return ms.status();
-  const int n = settings_.quick ? 9 : 25;
+  double one = 0;
+  for (const Timed* warm : {&a, &b, &a, &b}) {
+    const Result<double> ms = (*warm)();
+    if (!ms) return ms.status();
+    one = warm == &a ? ms.value() : one + ms.value();
+  }
+  const int n = settings_.quick ? std::clamp(static_cast<int>(quick_pairs_ms / one), 3, 9) : 25;
   return guarded(
       [&]() -> Result<Pair> {
         Pair pair;
@@ -144,22 +159,73 @@ void Session::load_oracles() {
   for (std::string line; std::getline(file, line);) {
     const Json j = Json::parse(line, nullptr, false);
     if (!j.is_object()) continue;
-    const auto number = [&](const char* field) { return j.at(field).is_number() ? j.at(field).get<double>() : NAN; };
-    oracles_[j.at("key").get<std::string>()] = {j.at("bits").get<std::uint64_t>(), number("rounding"),
-                                                number("storage"), number("method")};
+    for (const Json& o : j.at("oracles")) {
+      const auto number = [&](const char* field) { return o.at(field).is_number() ? o.at(field).get<double>() : NAN; };
+      oracles_[j.at("key").get<std::string>()].push_back(
+          {o.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"), number("method")});
+    }
   }
 }
 
-Result<Oracle> Session::oracle(const std::string& key, const std::function<Result<Oracle>()>& compute) {
+Result<std::vector<Oracle>> Session::oracles(const std::string& key,
+                                             const std::function<Result<std::vector<Oracle>>()>& compute) {
   if (const auto found = oracles_.find(key); found != oracles_.end()) return found->second;
-  const Result<Oracle> made = compute();
+  Result<std::vector<Oracle>> made = compute();
   if (!made) return made;
-  const Oracle& o = oracles_[key] = made.value();
+  Json list = Json::array();
+  for (const Oracle& o : made.value())
+    list.push_back({{"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}});
   std::ofstream(settings_.out + "/oracles.jsonl", std::ios::app)
-      << Json({{"key", key}, {"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}})
-                 .dump() +
-             "\n";
-  return made;
+      << Json({{"key", key}, {"oracles", list}}).dump() + "\n";
+  return oracles_[key] = std::move(made).value();
+}
+
+Result<std::vector<ErrorSplit>> Session::errors(const std::string& label, const std::vector<std::string>& metrics,
+                                                std::uint64_t bits, bool promised,
+                                                const std::function<Result<std::vector<Oracle>>()>& compute,
+                                                const std::function<Result<std::vector<double>>()>& device) {
+  const Result<std::vector<Oracle>> found = oracles(label, compute);
+  if (!found) return found.status();
+  const bool equal = bits == found.value().front().bits;
+  if (promised) promise_bits(kernel_of(label), equal, label);
+  std::vector<double> apart(metrics.size(), 0.0);
+  if (!equal) {
+    Result<std::vector<double>> off = device();
+    if (!off) return off.status();
+    apart = std::move(off).value();
+  }
+  std::vector<ErrorSplit> errors;
+  for (std::size_t i = 0; i < metrics.size(); ++i) {
+    const Oracle& o = found.value().at(i);
+    errors.push_back({metrics[i], o.rounding, o.storage, apart.at(i), o.method});
+  }
+  return errors;
+}
+
+void Session::frontier(const FrontierRow& r) {
+  const ErrorSplit& e = r.error;
+  row("frontier", {{"kernel", r.kernel},
+                   {"variant", r.variant},
+                   {"device", device()},
+                   {"scene", r.scene},
+                   {"size", r.size},
+                   {"options", r.options},
+                   {"knobs", r.knobs},
+                   {"time_ms", {{"build", r.build}, {"update", r.update}, {"shade", r.shade}}},
+                   {"error",
+                    {{"metric", e.metric},
+                     {"rounding", e.rounding},
+                     {"storage", e.storage},
+                     {"device", e.device},
+                     {"method", e.method},
+                     {"discretization", e.discretization},
+                     {"model", e.model},
+                     {"stderr", e.standard_error}}},
+                   {"bytes", r.bytes},
+                   {"flops", r.flops},
+                   {"memory_bytes", r.memory},
+                   {"on_frontier", nullptr},
+                   {"group", fmt::format("{}|{}|{}|{}|{}|{}", r.kernel, device(), r.scene, r.size, e.metric, r.group)}});
 }
 
 void Session::promise_bits(const std::string& kernel, bool equal, const std::string& label) {

@@ -10,11 +10,11 @@
 
 #include <luxel/device.h>
 
+#include "bench/report/frontier_row.h"
 #include "bench/report/guard.h"
 #include "bench/report/json.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
-#include "tests/cases/run.h"
 
 namespace luxel::report {
 
@@ -68,8 +68,15 @@ class Session {
   };
   Result<Pair> interleave(const Timed& a, const Timed& b, const std::string& label);
 
-  /// The oracle of a setting, computed once in a report and shared by its devices through a file.
-  Result<Oracle> oracle(const std::string& key, const std::function<Result<Oracle>()>& compute);
+  /// The error of a result by each of some metrics. Rounding, storage and method come from `oracles` (one a metric;
+  /// computed once in a report for a `label`, and shared by its devices through a file). The device's own part is 0
+  /// where `bits` are the oracle's, else `device` finds it (one number a metric). `promised`: the bits must be equal.
+  Result<std::vector<ErrorSplit>> errors(const std::string& label, const std::vector<std::string>& metrics,
+                                         std::uint64_t bits, bool promised,
+                                         const std::function<Result<std::vector<Oracle>>()>& oracles,
+                                         const std::function<Result<std::vector<double>>()>& device);
+  /// Sends a row of the frontier.
+  void frontier(const FrontierRow& row);
 
   /// True the first time that it is asked with this text.
   bool first_time(const std::string& what) { return seen_.insert(what).second; }
@@ -84,6 +91,8 @@ class Session {
  private:
   void send(const Json& message);
   void load_oracles();
+  Result<std::vector<Oracle>> oracles(const std::string& key,
+                                      const std::function<Result<std::vector<Oracle>>()>& compute);
   template <class Take>
   auto guarded(const Take& take, const std::string& label) -> decltype(take());
 
@@ -92,7 +101,7 @@ class Session {
   int rows_;
   Guard guard_;
   int timed_ = 0, retaken_ = 0;
-  std::map<std::string, Oracle> oracles_;
+  std::map<std::string, std::vector<Oracle>> oracles_;
   std::set<std::string> seen_;
   struct Bits {
     double checked = 0, different = 0;

@@ -152,6 +152,24 @@ Values truth_of(const Setting& s) {
   return values;
 }
 
+std::uint64_t bits_of(const Values& v) { return hash_bytes(cases::store(v, Format::f32x4, true)); }
+
+// One for colours and one for sets.
+Result<std::vector<Oracle>> compute_oracles(Session& session, const Setting& s) {
+  Setting wide = s;
+  wide.format = Format::f32x4;
+  const auto exact = colour_of(session.cpu_double(), s), f32 = colour_of(session.cpu_float(), wide),
+             stored = s.format == wide.format ? f32 : colour_of(session.cpu_float(), s);
+  if (!exact) return exact.status();
+  if (!f32) return f32.status();
+  if (!stored) return stored.status();
+  const Difference rounding = compare(f32.value(), exact.value()), storage = compare(stored.value(), f32.value()),
+                   method = compare(exact.value(), truth_of(s));
+  const std::uint64_t bits = bits_of(stored.value());
+  return std::vector<Oracle>{{bits, rounding.colour, storage.colour, method.colour},
+                             {bits, rounding.voxels, storage.voxels, method.voxels}};
+}
+
 Status measure(Session& session, const Setting& s) {
   const auto made = ready(session.context(), s);
   if (!made) return made.status();
@@ -159,77 +177,35 @@ Status measure(Session& session, const Setting& s) {
   const Result<Sample> ms = session.time(run, label(s));
   if (!ms) return ms.status();
 
-  Difference rounding, storage, method, device;
+  const std::vector<std::string> metrics{"max |x - t| of colour 0..1", "voxels missing or extra"};
+  std::vector<ErrorSplit> errors{{metrics[0]}, {metrics[1]}};
   if (s.errors) {
     const Result<Values> own = run.read("colour");
     if (!own) return own.status();
-    // Two oracles, one for colours and one for sets: rounding, storage, method.
-    std::vector<Oracle> computed;
-    const auto oracle = [&](std::size_t index) {
-      return session.oracle(fmt::format("{} {}", label(s), index), [&]() -> Result<Oracle> {
-        if (computed.empty()) {
-          Setting wide = s;
-          wide.format = Format::f32x4;
-          const auto exact = colour_of(session.cpu_double(), s), f32 = colour_of(session.cpu_float(), wide),
-                     stored = colour_of(session.cpu_float(), s);
-          if (!exact) return exact.status();
-          if (!f32) return f32.status();
-          if (!stored) return stored.status();
-          const Difference r = compare(f32.value(), exact.value()), t = compare(stored.value(), f32.value()),
-                           m = compare(exact.value(), truth_of(s));
-          const Values& v = stored.value();
-          const std::uint64_t bits = hash_bytes(cases::store(v, Format::f32x4, true));
-          computed = {{bits, r.colour, t.colour, m.colour}, {bits, r.voxels, t.voxels, m.voxels}};
-        }
-        return computed[index];
-      });
-    };
-    const Result<Oracle> colour = oracle(0), voxels = oracle(1);
-    if (!colour) return colour.status();
-    if (!voxels) return voxels.status();
-    rounding = {colour.value().rounding, voxels.value().rounding};
-    storage = {colour.value().storage, voxels.value().storage};
-    method = {colour.value().method, voxels.value().method};
-    const bool equal = hash_bytes(cases::store(own.value(), Format::f32x4, true)) == colour.value().bits;
-    if (s.merging == VoxelizeMerging::exact) session.promise_bits("voxelize", equal, label(s));
-    if (!equal) {
-      const Result<Values> other = colour_of(session.cpu_float(), s);
-      if (!other) return other.status();
-      device = compare(own.value(), other.value());
-    }
+    auto split = session.errors(
+        label(s), metrics, bits_of(own.value()), s.merging == VoxelizeMerging::exact,
+        [&] { return compute_oracles(session, s); },
+        [&]() -> Result<std::vector<double>> {
+          const Result<Values> other = colour_of(session.cpu_float(), s);
+          if (!other) return other.status();
+          const Difference d = compare(own.value(), other.value());
+          return std::vector{d.colour, d.voxels};
+        });
+    if (!split) return split.status();
+    errors = std::move(split).value();
   }
-  const auto row = [&](const char* metric, double r, double st, double m, double d) {
-    const auto value = [&](double v) { return s.errors ? Json(v) : Json(); };
-    session.row("frontier", {{"kernel", "voxelize"},
-                             {"variant", name(s.mode)},
-                             {"device", session.device()},
-                             {"scene", s.scene->name},
-                             {"size", size_text(*s.scene)},
-                             {"options",
-                              {{"format", luxel::name(s.format)},
-                               {"merging", name(s.merging)},
-                               {"normals", s.attributes},
-                               {"touched_only", s.touched_only}}},
-                             {"knobs", {{"triangles", s.scene->mesh.triangles()}}},
-                             {"time_ms", {{"build", to_json(ms.value())}, {"update", nullptr}, {"shade", nullptr}}},
-                             {"error",
-                              {{"metric", metric},
-                               {"rounding", value(r)},
-                               {"storage", value(st)},
-                               {"device", value(d)},
-                               {"method", value(m)},
-                               {"discretization", nullptr},
-                               {"model", nullptr},
-                               {"stderr", nullptr}}},
-                             {"bytes", run.plan().bytes},
-                             {"flops", run.plan().flops},
-                             {"memory_bytes", run.memory_bytes()},
-                             {"on_frontier", nullptr},
-                             {"group", fmt::format("voxelize|{}|{}|{}|{}|{}|{}", session.device(), s.scene->name,
-                                                   size_text(*s.scene), metric, name(s.mode), s.attributes)}});
-  };
-  row("max |x - t| of colour 0..1", rounding.colour, storage.colour, method.colour, device.colour);
-  row("voxels missing or extra", rounding.voxels, storage.voxels, method.voxels, device.voxels);
+  for (const ErrorSplit& error : errors) {
+    FrontierRow row{"voxelize", name(s.mode), s.scene->name, size_text(*s.scene),
+                    {{"format", luxel::name(s.format)},
+                     {"merging", name(s.merging)},
+                     {"normals", s.attributes},
+                     {"touched_only", s.touched_only}},
+                    {{"triangles", s.scene->mesh.triangles()}},
+                    fmt::format("{} {}", name(s.mode), s.attributes), error};
+    row.build = to_json(ms.value());
+    row.costs_of(run);
+    session.frontier(row);
+  }
   return {};
 }
 
@@ -295,15 +271,21 @@ Status left_out(Session& session, const Setting& more, const Setting& fewer, con
 std::vector<Job> voxel_jobs(Session& session) {
   const bool quick = session.settings().quick;
   std::string what;
-  cases::Mesh mesh = bunny_or_ball(what);
-  mesh.materials.clear();
-  for (std::size_t t = 0; t < mesh.triangles(); ++t) mesh.materials.push_back(static_cast<std::uint32_t>(t / 1000 % 3));
+  const auto coloured = [](cases::Mesh of) {
+    of.materials.clear();
+    for (std::size_t t = 0; t < of.triangles(); ++t) of.materials.push_back(static_cast<std::uint32_t>(t / 1000 % 3));
+    return of;
+  };
+  const cases::Mesh mesh = coloured(bunny_or_ball(what));
   const auto scene_of = [&](int n) {
     return std::make_shared<const VoxelScene>(VoxelScene{what, mesh, grid_around(mesh, n)});
   };
   std::vector<Job> jobs;
   const auto add = [&](const Setting& s) { jobs.push_back({label(s), [&session, s] { return measure(session, s); }}); };
-  const auto small = scene_of(quick ? 32 : 64);
+  // Time grows with the triangles, whatever the setting: quick reports take fewer.
+  const cases::Mesh ball = coloured(cases::icosphere({0, 0, 0}, 1, 4));
+  const auto small = quick ? std::make_shared<const VoxelScene>(VoxelScene{"small ball", ball, grid_around(ball, 32)})
+                           : scene_of(64);
   for (const VoxelizeMode mode : {VoxelizeMode::conservative, VoxelizeMode::thin, VoxelizeMode::dilated}) {
     Setting s{small};
     s.mode = mode;
@@ -322,7 +304,7 @@ std::vector<Job> voxel_jobs(Session& session) {
   add(normals);
   // Times alone, where the truth takes long; published times of the peer.
   for (const auto& [n, published] : {std::pair{64, 39.8}, {128, 63.6}, {256, 118.0}, {512, 309.0}}) {
-    if ((quick && n > 128) || (session.is_cpu() && n > 128)) continue;
+    if ((quick && n > 64) || (session.is_cpu() && n > 128)) continue;
     Setting s{scene_of(n)};
     s.errors = false;
     s.format = n > 128 ? Format::unorm8x4 : Format::f32x4;
@@ -335,7 +317,7 @@ std::vector<Job> voxel_jobs(Session& session) {
       jobs.push_back({"peer of " + label(s), [&session, s, ms] { return beside_published(session, s, ms); }});
   }
   if (!session.is_cpu())
-    for (const int parts : {1, 16, 256}) {
+    for (const int parts : quick ? std::vector<int>{1, 64} : std::vector<int>{1, 16, 256}) {
       const cases::Mesh floor = floor_of(parts);
       Setting s{std::make_shared<const VoxelScene>(
           VoxelScene{fmt::format("floor of {} triangles", floor.triangles()), floor, cases::unit_grid(256)})};
