@@ -50,11 +50,11 @@ Status validate(const GaussianBlurParams& p) {
   LUXEL_CHECK(stride("GaussianBlurParams.dst_stride", p.dst_stride));
   LUXEL_CHECK(check_range("GaussianBlurParams.sigma", p.sigma, 0.0, 10000.0));
   LUXEL_CHECK(check_range("GaussianBlurParams.radius", p.radius, -1, max_radius));
-  const bool taps = p.variant != GaussianVariant::recursive;
+  const bool taps = p.variant < GaussianVariant::recursive;
   if (taps && p.radius < 0 && std::ceil(3 * p.sigma) > max_radius)
     return out_of_range("GaussianBlurParams.sigma", p.sigma, "0..1365, or a radius given (0..4095)");
   LUXEL_CHECK(check_range("GaussianBlurParams.border", static_cast<int>(p.border), 0, 3));
-  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 3));
+  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 4));
   LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 2));
   if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
     return out_of_range("GaussianBlurParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
@@ -72,15 +72,21 @@ Status validate(const GaussianBlurParams& p) {
     if (p.difference) return out_of_range("GaussianBlurParams.difference", "true", "false for variant sampler");
     if (p.keep_alpha) return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for variant sampler");
   }
-  if (p.variant == GaussianVariant::recursive) {
-    LUXEL_CHECK(check_range("GaussianBlurParams.order", p.order, 3, 5));
-    if (p.radius >= 0) return out_of_range("GaussianBlurParams.radius", p.radius, "-1 for variant recursive");
+  if (!taps) {
+    const std::string variant = p.variant == GaussianVariant::recursive ? "variant recursive" : "variant box";
+    const bool recursive = p.variant == GaussianVariant::recursive;
+    if (p.radius >= 0) return out_of_range("GaussianBlurParams.radius", p.radius, "-1 for " + variant);
     if (p.input == Input::storage_image)
-      return out_of_range("GaussianBlurParams.input", "storage_image", "buffer or image for variant recursive");
-    if (p.difference)
-      return out_of_range("GaussianBlurParams.difference", "true", "false for variant recursive, which takes differences always");
-    if (recursive_scratch(p) > 0x7fffffff)
-      return out_of_range("GaussianBlurParams.height", p.height, "2 x width x height x channels of at most 2147483647 for variant recursive");
+      return out_of_range("GaussianBlurParams.input", "storage_image", "buffer or image for " + variant);
+    if (p.difference) return out_of_range("GaussianBlurParams.difference", "true", "false for " + variant);
+    LUXEL_CHECK(check_range("GaussianBlurParams.order", p.order, 3, 5));
+    LUXEL_CHECK(check_range("GaussianBlurParams.passes", p.passes, 1, 5));
+    if (recursive && recursive_scratch(p) > 0x7fffffff)
+      return out_of_range("GaussianBlurParams.height", p.height,
+                          "2 x width x height x channels of at most 2147483647 for variant recursive");
+    if (!recursive && box_scratch(p) > 0x7fffffff)
+      return out_of_range("GaussianBlurParams.sigma", p.sigma,
+                          "lines that reach passes x sigma beyond the image, of at most 2147483647 values, for variant box");
   }
   const long long pixels = static_cast<long long>(std::max(p.src_stride, p.dst_stride) > 0
                                                       ? std::max({p.src_stride, p.dst_stride, p.width}) : p.width) * p.height;
@@ -148,6 +154,15 @@ std::vector<double> gaussian_weights(double sigma, int radius, bool rounded) {
   return w;
 }
 
+Format f32_of(Format format) {
+  return channels(format) == 1 ? Format::f32x1 : channels(format) == 2 ? Format::f32x2 : Format::f32x4;
+}
+
+std::string module_of(const Pixels& from, const Pixels& to, const Profile& profile) {
+  const std::string read = from.image ? "image_" : profile.texels ? "texels_" : "", source = name(from.format);
+  return read + (from.format == to.format ? source : source + "_" + name(to.format));
+}
+
 Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   LUXEL_CHECK(validate(p));
   const int n = channels(p.format);
@@ -157,11 +172,12 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   const int radius_x = p.width > 1 ? radius : 0;   // along an axis of one pixel every border gives that pixel
   const int radius_y = p.height > 1 ? radius : 0;
   // Where no neighbour has a weight, every variant is a copy.
-  const bool copies = p.sigma < least_sigma;
-  const bool recursive = p.variant == GaussianVariant::recursive && !copies && p.width * p.height > 1;
+  const bool copies = p.sigma < least_sigma || (p.width == 1 && p.height == 1);
+  const bool recursive = p.variant == GaussianVariant::recursive && !copies;
+  const bool box = p.variant == GaussianVariant::box && !copies;
   const bool separable = p.variant != GaussianVariant::direct;
   const bool sampler = p.variant == GaussianVariant::sampler;
-  const bool two = separable && (recursive ? p.width > 1 && p.height > 1 : radius_x > 0 && radius_y > 0);
+  const bool two = separable && (recursive || box ? p.width > 1 && p.height > 1 : radius_x > 0 && radius_y > 0);
 
   Planner planner("gaussian_blur");
   Resource src{"src"}, dst{"dst"};
@@ -179,12 +195,13 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   }
   const Slot from = planner.resource(src);
   const Slot to = planner.resource(dst);
-  if (recursive) {
-    plan_recursive(p, profile, planner, from, to);
+  if (recursive || box) {
+    const Pixels in{from, p.format, src_stride, p.input == Input::image}, out{to, p.format, dst_stride};
+    recursive ? plan_recursive(p, profile, planner, in, out) : plan_box(p, profile, planner, in, out);
     return std::move(planner).finish();
   }
   const std::string name_of = name(p.format);
-  const Format middle_format = n == 1 ? Format::f32x1 : n == 2 ? Format::f32x2 : Format::f32x4;
+  const Format middle_format = f32_of(p.format);
   const std::string middle_name = name(middle_format);
   const std::string read = profile.texels && separable ? "texels_" : "";  // how buffers are read
   const std::string input = (p.input == Input::buffer ? read : p.input == Input::image ? "image_" : "storage_") + name_of;

@@ -241,32 +241,23 @@ double recursive_scratch(const GaussianBlurParams& p) {
   return std::max(kept(p.height, p.width), kept(p.width, p.height));
 }
 
-void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner& planner, Slot from, Slot to) {
-  const Format middle_format = channels(p.format) == 1   ? Format::f32x1
-                               : channels(p.format) == 2 ? Format::f32x2
-                                                         : Format::f32x4;
-  const std::string middle_name = name(middle_format), outer_name = name(p.format);
-  const bool same = p.format == middle_format;
-  const std::string read = profile.texels ? "texels_" : "";
-  const std::string input = p.input == Input::buffer ? read : "image_";
-  const std::string to_middle = same ? middle_name : outer_name + "_" + middle_name;
-  const std::string to_outer = read + (same ? middle_name : middle_name + "_" + outer_name);
-  const auto size = static_cast<std::size_t>(p.width) * p.height;
+void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner& planner, const Pixels& from,
+                    const Pixels& to) {
   const Slot nothing = planner.scratch(Format::f32x1, 1);
+  const bool together = profile.rows.lanes > 0;  // an invocation's lines lie together, else neighbours' positions
 
-  struct End {
-    std::string module;
-    int stride;
-    Slot slot;
+  const auto lanes_of = [&](Format format) { return std::max(profile.rows.lanes, channels(format)); };
+  // Pixels of the lines kept between the directions, whole invocations of them.
+  const auto kept_size = [&](const Line& l, int lines, Format format) {
+    const int pixels = lanes_of(format) / channels(format);
+    return static_cast<std::size_t>((lines + pixels - 1) / pixels * pixels) * (l.stored + kept_states);
   };
   // Along one axis, forward and backward; `ones`: one line of an image of ones.
-  const auto filter = [&](int axis, const End& in, const End& out, bool ones, Slot coverage) {
+  const auto filter = [&](int axis, const Pixels& in, const Pixels& out, bool ones, Slot coverage, Slot between) {
     const Line l = line_of(p, axis);
-    const Format kept_format = ones ? Format::f32x1 : middle_format;
-    const int n = channels(kept_format), lanes = std::max(profile.rows.lanes, n), pixels = lanes / n;
+    const Pixels kept{between, f32_of(out.format), 0};
+    const int n = channels(kept.format), lanes = lanes_of(kept.format), pixels = lanes / n;
     const int lines = ones ? 1 : l.lines, groups = (lines + pixels - 1) / pixels, length = l.stored + kept_states;
-    const bool together = profile.rows.lanes > 0;  // an invocation's lines lie together, else neighbours' positions
-    const Slot kept = planner.scratch(kept_format, static_cast<std::size_t>(groups) * length * pixels);
     std::vector<double> exact(64, 0.0);
     std::copy(l.filter.c.begin(), l.filter.c.end(), exact.begin());
     for (int i = 0; i < states; ++i) std::copy(l.ends[i].begin(), l.ends[i].end(), exact.begin() + 8 + states * i);
@@ -276,8 +267,8 @@ void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner
     for (const bool backward : {false, true}) {
       const std::string label = std::string("gaussian_blur recursive ") + (axis == 0 ? "rows " : "columns ") +
                                 (backward ? "backward" : "forward") + (ones ? " coverage" : "");
-      planner.pass("gaussian_blur_recursive", backward ? out.module : in.module, label,
-                   {static_cast<std::uint32_t>(groups), 1, 1}, {together ? 4u : 32u, 1, 1},
+      planner.pass("gaussian_blur_recursive", backward ? module_of(kept, out, profile) : module_of(in, kept, profile),
+                   label, {static_cast<std::uint32_t>(groups), 1, 1}, {together ? 4u : 32u, 1, 1},
                    {{"lines", lines},
                     {"count", l.count},
                     {"image_stride", backward ? out.stride : in.stride},
@@ -295,33 +286,37 @@ void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner
                     {"ONES", ones},
                     {"KEEP_ALPHA", p.keep_alpha && !ones},
                     {"LANES", lanes}},
-                   {{"src", backward ? kept : in.slot},
-                    {"dst", backward ? out.slot : kept},
+                   {{"src", backward ? kept.slot : in.slot},
+                    {"dst", backward ? out.slot : kept.slot},
                     {"coefficients", coefficients},
                     {"coverage", coverage}});
       // A real pole takes 3 operations, a pair 11.
       const int operations = p.order == 3 ? 14 : p.order == 4 ? 22 : 25;
       planner.cost(static_cast<double>(lines) * (l.stored + l.warm) * n * operations,
-                   static_cast<double>(lines) * l.count * (bytes_per_pixel(kept_format) + bytes_per_pixel(p.format)));
+                   static_cast<double>(lines) * l.count *
+                       (bytes_per_pixel(kept.format) + bytes_per_pixel(backward ? out.format : in.format)));
     }
   };
   // Where outside is nothing, results are divided by what becomes of ones.
   const auto cover = [&](int axis) {
     if (p.border != Border::zero) return nothing;
-    const Slot coverage = planner.scratch(Format::f32x1, axis == 0 ? p.width : p.height);
-    filter(axis, {read + "f32x1", 1, coverage}, {read + "f32x1", 1, coverage}, true, nothing);
-    return coverage;
+    const Slot kept = planner.scratch(Format::f32x1, kept_size(line_of(p, axis), 1, Format::f32x1));
+    const Pixels covered{planner.scratch(Format::f32x1, axis == 0 ? p.width : p.height), Format::f32x1, 1};
+    filter(axis, {nothing, Format::f32x1, 1}, covered, true, nothing, kept);
+    return covered.slot;
   };
-  const int src_stride = p.src_stride ? p.src_stride : p.width, dst_stride = p.dst_stride ? p.dst_stride : p.width;
-  const End first{input + to_middle, src_stride, from}, last{to_outer, dst_stride, to};
+  const Format format = f32_of(p.format);
+  const Line rows = line_of(p, 0), columns = line_of(p, 1);
   if (p.width > 1 && p.height > 1) {
-    const Slot middle = planner.scratch(middle_format, size);
-    const Slot covered_rows = cover(0), covered_columns = cover(1);
-    filter(0, first, {read + middle_name, p.width, middle}, false, covered_rows);
-    filter(1, {read + middle_name, p.width, middle}, last, false, covered_columns);
+    const Slot kept =
+        planner.scratch(format, std::max(kept_size(rows, p.height, format), kept_size(columns, p.width, format)));
+    const Pixels middle{planner.scratch(format, static_cast<std::size_t>(p.width) * p.height), format, p.width};
+    filter(0, from, middle, false, cover(0), kept);
+    filter(1, middle, to, false, cover(1), kept);
   } else {
     const int axis = p.height > 1 ? 1 : 0;
-    filter(axis, first, last, false, cover(axis));
+    filter(axis, from, to, false, cover(axis),
+           planner.scratch(format, kept_size(axis == 0 ? rows : columns, 1, format)));
   }
 }
 

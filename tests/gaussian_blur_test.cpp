@@ -91,6 +91,10 @@ TEST(GaussianBlurPlan, LeavesOutPassesThatChangeNothing) {
   EXPECT_EQ(passes(1, 32, 4), 2u);
   EXPECT_EQ(passes(1, 1, 4), 1u) << "a copy";
   EXPECT_EQ(passes(64, 32, 0.01), 1u) << "a copy";
+  p.variant = GaussianVariant::box;
+  EXPECT_EQ(passes(64, 32, 4), 6u) << "three along two axes";
+  EXPECT_EQ(passes(64, 1, 4), 3u);
+  EXPECT_EQ(passes(64, 32, 0.01), 1u) << "a copy";
 }
 
 struct Refusal {
@@ -115,7 +119,7 @@ TEST(GaussianBlurValidate, NamesFieldValueAndRange) {
       {"GaussianBlurParams.format is u32; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4", [](auto& p) { p.format = Format::u32; }},
       {"GaussianBlurParams.format is f16x2; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4", [](auto& p) { p.format = Format::f16x2; }},
       {"GaussianBlurParams.border is 9; expected 0..3", [](auto& p) { p.border = static_cast<Border>(9); }},
-      {"GaussianBlurParams.variant is 7; expected 0..3", [](auto& p) { p.variant = static_cast<GaussianVariant>(7); }},
+      {"GaussianBlurParams.variant is 7; expected 0..4", [](auto& p) { p.variant = static_cast<GaussianVariant>(7); }},
       {"GaussianBlurParams.keep_alpha is true; expected false for a format of fewer than four channels",
        [](auto& p) { p.keep_alpha = true; p.format = Format::f32x1; }},
       {"GaussianBlurParams.radius of variant direct is 97; expected 0..96",
@@ -128,10 +132,16 @@ TEST(GaussianBlurValidate, NamesFieldValueAndRange) {
        [](auto& p) { p.variant = GaussianVariant::recursive; p.radius = 12; }},
       {"GaussianBlurParams.input is storage_image; expected buffer or image for variant recursive",
        [](auto& p) { p.variant = GaussianVariant::recursive; p.input = Input::storage_image; }},
-      {"GaussianBlurParams.difference is true; expected false for variant recursive, which takes differences always",
+      {"GaussianBlurParams.difference is true; expected false for variant recursive",
        [](auto& p) { p.variant = GaussianVariant::recursive; p.difference = true; }},
       {"GaussianBlurParams.height is 20000; expected 2 x width x height x channels of at most 2147483647 for variant recursive",
        [](auto& p) { p.variant = GaussianVariant::recursive; p.width = p.height = 20000; }},
+      {"GaussianBlurParams.passes is 6; expected 1..5", [](auto& p) { p.variant = GaussianVariant::box; p.passes = 6; }},
+      {"GaussianBlurParams.difference is true; expected false for variant box",
+       [](auto& p) { p.variant = GaussianVariant::box; p.difference = true; }},
+      {"GaussianBlurParams.sigma is 10000; expected lines that reach passes x sigma beyond the image, of at most 2147483647 values, "
+       "for variant box",
+       [](auto& p) { p.variant = GaussianVariant::box; p.passes = 5; p.sigma = 10000; p.width = p.height = 11000; }},
       {"GaussianBlurParams.height is 65535; expected stride x height x channels of at most 2147483647",
        [](auto& p) { p.width = p.height = 65535; }},
   };
@@ -171,7 +181,7 @@ TEST(GaussianBlurRounding, StaysWithinItsBound) {
 // Small enough for a checking simulator: every variant, format and way of reading, and every border, with tails.
 TEST(GaussianBlurSmall, EveryVariantRuns) {
   for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::sampler,
-                                       GaussianVariant::recursive})
+                                       GaussianVariant::recursive, GaussianVariant::box})
     for (const Format format : cases::pixel_formats)
       for (const Border border : cases::borders)
         for (const Input input : {Input::buffer, Input::image}) {

@@ -15,7 +15,7 @@ namespace {
 struct Arguments {
   std::string in, out, device, variant, border, format, input;
   double sigma = 0;
-  int radius = -1, order = 5;
+  int radius = -1, order = 5, passes = 3;
   bool difference = false, keep_alpha = false, drop_taps = false;
 };
 
@@ -25,13 +25,16 @@ GaussianBlurParams parameters(const Arguments& a, const io::Image& image) {
   p.height = image.height;
   p.sigma = a.sigma;
   p.radius = a.radius;
-  p.border = a.border == "clamp" ? Border::clamp : a.border == "mirror" ? Border::mirror
-             : a.border == "wrap" ? Border::wrap : Border::zero;
+  p.border = a.border == "clamp"    ? Border::clamp
+             : a.border == "mirror" ? Border::mirror
+             : a.border == "wrap"   ? Border::wrap
+                                    : Border::zero;
   const auto& variants = kernel("gaussian_blur").variants;  // in the order of the enumeration
   p.variant = static_cast<GaussianVariant>(
       std::find_if(variants.begin(), variants.end(), [&](const Variant& v) { return v.name == a.variant; }) -
       variants.begin());
   p.order = a.order;
+  p.passes = a.passes;
   p.format = storage_format(a.format, image.channels);
   p.input = a.input == "image" || p.variant == GaussianVariant::sampler ? Input::image : Input::buffer;
   p.difference = a.difference;
@@ -61,10 +64,10 @@ int run(const Arguments& a) {
   io::WriteReport changes;
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
   const std::string knob = p.variant == GaussianVariant::recursive ? fmt::format("order {}", p.order)
+                           : p.variant == GaussianVariant::box     ? fmt::format("{} passes", p.passes)
                                                                    : fmt::format("radius {}", effective_radius(p));
-  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format),
-             p.width, p.height, p.sigma, knob, a.border, context.info().id, time_text(times), a.out,
-             changes_text(changes));
+  fmt::print("gaussian_blur {} {} {}x{}, sigma {}, {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,
+             p.height, p.sigma, knob, a.border, context.info().id, time_text(times), a.out, changes_text(changes));
   return done;
 }
 
@@ -75,18 +78,21 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
   CLI::App* command = app.add_subcommand("gaussian_blur", "blur an image file");
   auto a = std::make_shared<Arguments>();
   command->add_option("--in", a->in, "image to blur: .exr, .hdr, .png or .npy ([y][x] or [y][x][c], 1..4 channels)")
-      ->required()->type_name("FILE");
+      ->required()
+      ->type_name("FILE");
   command->add_option("-o,--out", a->out, "blurred image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
-      ->required()->type_name("FILE");
+      ->required()
+      ->type_name("FILE");
   add_number(*command, k, "--sigma", a->sigma);
   add_number(*command, k, "--radius", a->radius);
   add_number(*command, k, "--order", a->order);
+  add_number(*command, k, "--passes", a->passes);
   add_variant(*command, k, a->variant);
   for (const auto& [name, value] :
        {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
     add_choice(*command, k, name, *value);
-  for (const auto& [name, value] : {std::pair{"--difference", &a->difference}, {"--keep-alpha", &a->keep_alpha},
-                                    {"--drop-taps", &a->drop_taps}})
+  for (const auto& [name, value] :
+       {std::pair{"--difference", &a->difference}, {"--keep-alpha", &a->keep_alpha}, {"--drop-taps", &a->drop_taps}})
     add_switch(*command, k, name, *value);
   add_device_option(*command, a->device);
   command->footer("Images pass without colour conversion. With taps, sigma above 1365 needs --radius.");

@@ -16,7 +16,8 @@ enum class GaussianVariant {
   separable,  // a pass along rows, a pass along columns: 2(2R+1) taps
   direct,     // one pass of (2R+1)^2 taps: the baseline
   sampler,    // separable, two texels per tap through the linear sampler; clamp and wrap only; src is an image
-  recursive   // poles, forward and backward along each axis: the same cost for every sigma
+  recursive,  // poles, forward and backward along each axis: the same cost for every sigma
+  box         // repeated boxes of fractional width: the same cost for every sigma
 };
 
 struct GaussianBlurParams {
@@ -25,8 +26,9 @@ struct GaussianBlurParams {
   int src_stride = 0;         // pixels from row to row of src (buffers); 0: width
   int dst_stride = 0;         // pixels from row to row of dst; 0: width
   double sigma = 1.0;         // standard deviation in pixels, 0..10000
-  int radius = -1;            // taps on each side, 0..4095; -1: ceil(3 sigma); -1 where a variant has no taps (recursive)
+  int radius = -1;            // taps on each side, 0..4095; -1: ceil(3 sigma); -1 where a variant has no taps (recursive, box)
   int order = 5;              // recursive: poles of a direction, 3..5
+  int passes = 3;             // box: boxes one after another, 1..5
   Border border = Border::clamp;
   GaussianVariant variant = GaussianVariant::separable;
   Format format = Format::f32x4;  // of src and dst: f32x1, f32x2, f32x4, f16x4, unorm8x4

@@ -14,7 +14,7 @@ const char* name(Border border) {
 }
 
 const char* name(GaussianVariant variant) {
-  static const char* const names[] = {"separable", "direct", "sampler", "recursive"};
+  static const char* const names[] = {"separable", "direct", "sampler", "recursive", "box"};
   return names[static_cast<int>(variant)];
 }
 
@@ -68,6 +68,7 @@ std::vector<Case> gaussian_blur_cases() {
   add_storage_cases(cases);
   add_equality_cases(cases);
   add_recursive_cases(cases);
+  add_box_cases(cases);
   for (Case& c : cases) c.kernel = "gaussian_blur";
   return cases;
 }

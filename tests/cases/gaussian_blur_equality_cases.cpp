@@ -35,11 +35,12 @@ void add_equal_bits(std::vector<Case>& cases) {
     for (const Border border : borders) {
       cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border), ""));
       cases.push_back(equal_to_cpp(blur_params(43, 29, 1.3, 4, format, border, GaussianVariant::direct), ""));
-      cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border, GaussianVariant::recursive), ""));
+      for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box})
+        cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border, variant), ""));
       // A format and a border meet only in the loads and stores, so that a row and a column of the table nearly say it
       // all.
-      cases.back().slow = (cases.end() - 2)->slow = (cases.end() - 3)->slow =
-          format != Format::f32x4 && border != Border::clamp;
+      for (auto c = cases.end() - 4; c != cases.end(); ++c)
+        c->slow = format != Format::f32x4 && border != Border::clamp;
     }
   GaussianBlurParams p = blur_params(67, 43, 3.7, 12);
   p.difference = true;
@@ -54,21 +55,30 @@ void add_equal_bits(std::vector<Case>& cases) {
     r.sigma = 0.6;
     cases.push_back(equal_to_cpp(r, fmt::format(" order {} sigma 0.6", order)));
   }
+  for (const int passes : {1, 4}) {
+    GaussianBlurParams b = blur_params(67, 43, 3.7, 12, Format::f16x4, Border::clamp, GaussianVariant::box);
+    b.passes = passes;
+    cases.push_back(equal_to_cpp(b, fmt::format(" {} passes", passes)));
+  }
+  p = blur_params(67, 43, 60, 180, Format::f32x4, Border::clamp, GaussianVariant::box);
+  cases.push_back(equal_to_cpp(p, " sigma 60"));
   p = blur_params(67, 43, 20, 60);
   cases.push_back(equal_to_cpp(p, " R 60"));
   for (const Format format : pixel_formats) {
     p = blur_params(67, 43, 3.7, 12, format, Border::mirror);
     p.input = Input::image;
     cases.push_back(equal_to_cpp(p, " image"));
-    p = blur_params(67, 43, 3.7, 12, format, Border::clamp, GaussianVariant::recursive);
-    p.input = Input::image;
-    cases.push_back(equal_to_cpp(p, " image"));
+    for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box}) {
+      p = blur_params(67, 43, 3.7, 12, format, Border::clamp, variant);
+      p.input = Input::image;
+      cases.push_back(equal_to_cpp(p, " image"));
+    }
   }
 }
 
 void add_in_place(std::vector<Case>& cases) {
   for (const Format format : pixel_formats)
-    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive})
+    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive, GaussianVariant::box})
       cases.push_back({"", fmt::format("in place, {} {}", name(variant), name(format)),
                        "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0,
                        [=](Context& context) -> Result<double> {

@@ -37,7 +37,7 @@ void add_single_rounding(std::vector<Case>& cases, Format format, double toleran
 // With wrap every pixel is handed on whole, so the sum of all pixels is kept.
 void add_kept_sum(std::vector<Case>& cases, Format format, double bound, const char* promise) {
   for (const GaussianVariant variant :
-       {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive})
+       {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive, GaussianVariant::box})
     cases.push_back({"", fmt::format("sum of all pixels, wrap, {} {}", name(variant), name(format)), promise, bound,
                      [=](Context& context) -> Result<double> {
                        const Values src = quantise(scene::noise(128, 64, channels(format), 8), format);
@@ -49,7 +49,7 @@ void add_kept_sum(std::vector<Case>& cases, Format format, double bound, const c
 
 void add_keep_alpha(std::vector<Case>& cases) {
   for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4})
-    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive})
+    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive, GaussianVariant::box})
       cases.push_back({"", fmt::format("keep_alpha, {} {}", name(variant), name(format)),
                        "alpha is copied bit for bit and colour is as without it (values that differ)", 0,
                        [=](Context& context) -> Result<double> {

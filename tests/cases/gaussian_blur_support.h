@@ -42,5 +42,6 @@ void add_value_cases(std::vector<Case>& cases);
 void add_storage_cases(std::vector<Case>& cases);
 void add_equality_cases(std::vector<Case>& cases);
 void add_recursive_cases(std::vector<Case>& cases);
+void add_box_cases(std::vector<Case>& cases);
 
 }  // namespace luxel::cases

@@ -1,0 +1,51 @@
+/* BUILD
+   math: border
+   module f32x1: CHANNELS=1 SRC_KIND=READ SRC=f32x1 DST=f32x1
+   module f32x2: CHANNELS=2 SRC_KIND=READ SRC=f32x2 DST=f32x2
+   module f32x4: SRC_KIND=READ SRC=f32x4 DST=f32x4
+   module f16x4_f32x4: SRC_KIND=READ SRC=f16x4 DST=f32x4
+   module f32x4_f16x4: SRC_KIND=READ SRC=f32x4 DST=f16x4
+   module unorm8x4_f32x4: SRC_KIND=READ SRC=unorm8x4 DST=f32x4
+   module f32x4_unorm8x4: SRC_KIND=READ SRC=f32x4 DST=unorm8x4
+   module image_f32x1: CHANNELS=1 SRC_KIND=IMAGE2D SRC=f32x1 DST=f32x1
+   module image_f32x2: CHANNELS=2 SRC_KIND=IMAGE2D SRC=f32x2 DST=f32x2
+   module image_f32x4: SRC_KIND=IMAGE2D SRC=f32x4 DST=f32x4
+   module image_f16x4_f32x4: SRC_KIND=IMAGE2D SRC=f16x4 DST=f32x4
+   module image_unorm8x4_f32x4: SRC_KIND=IMAGE2D SRC=unorm8x4 DST=f32x4
+   module texels_f32x1: CHANNELS=1 SRC_KIND=TEXELS SRC=f32x1 DST=f32x1
+   module texels_f32x2: CHANNELS=2 SRC_KIND=TEXELS SRC=f32x2 DST=f32x2
+   module texels_f32x4: SRC_KIND=TEXELS SRC=f32x4 DST=f32x4
+   module texels_f16x4_f32x4: SRC_KIND=TEXELS SRC=f16x4 DST=f32x4
+   module texels_f32x4_f16x4: SRC_KIND=TEXELS SRC=f32x4 DST=f16x4
+   module texels_unorm8x4_f32x4: SRC_KIND=TEXELS SRC=unorm8x4 DST=f32x4
+   module texels_f32x4_unorm8x4: SRC_KIND=TEXELS SRC=f32x4 DST=unorm8x4
+   module f16x4: SRC_KIND=READ SRC=f16x4 DST=f16x4
+   module unorm8x4: SRC_KIND=READ SRC=unorm8x4 DST=unorm8x4
+   module image_f16x4: SRC_KIND=IMAGE2D SRC=f16x4 DST=f16x4
+   module image_unorm8x4: SRC_KIND=IMAGE2D SRC=unorm8x4 DST=unorm8x4
+   module texels_f16x4: SRC_KIND=TEXELS SRC=f16x4 DST=f16x4
+   module texels_unorm8x4: SRC_KIND=TEXELS SRC=unorm8x4 DST=unorm8x4
+*/
+#define PARAMETERS(_) \
+    _(int, lines)      /* rows or columns of the image */ \
+    _(int, src_count)  /* positions of a line of src */ \
+    _(int, dst_count)  /* and of dst */ \
+    _(int, shift)      /* position in src of dst's first */ \
+    _(int, src_stride) /* pixels from row to row */ \
+    _(int, dst_stride)
+#define CONSTANTS(_) \
+    _(0, int, RADIUS, 1)     /* the window has 2 RADIUS + 1 pixels */ \
+    _(1, int, CHUNK, 3)      /* pixels of the window whose sums are kept at a time */ \
+    _(2, int, CHUNKS, 1)     /* how many there are: CHUNK * CHUNKS is at least the window */ \
+    _(3, int, AXIS, 0)       /* 0: along rows, 1: along columns */ \
+    _(4, int, BORDER, 0)     /* math/border.h; what pixels outside src are */ \
+    _(5, int, COVERED, 0)    /* 1: results are divided by coverage */ \
+    _(6, int, ONES, 0)       /* 1: src is taken to be 1 everywhere */ \
+    _(7, int, KEEP_ALPHA, 0) /* 1: the fourth channel is copied */
+#define SHAPE(_) \
+    _(8, int, LANES, 16)     /* neighbouring lines times channels an invocation computes */
+#define BINDINGS(_) \
+    _(SRC_KIND, 0, SRC, src) \
+    _(WRITE, 1, DST, dst) \
+    _(UNIFORM, 2, 4, weights)   /* of a pixel of the window; of the one at each end, which is covered in part */ \
+    _(READ, 3, float, coverage) /* zero border: what a line of ones becomes */
