@@ -39,7 +39,57 @@ Status check_above_zero(const char* field, double value) {
   return value > 0 && std::isfinite(value) ? Status() : out_of_range(field, value, "a number above 0");
 }
 
+// Texels of a voxel along both axes, and what asks for orthogonal rows.
+Status check_shadow(const VoxelInjectParams& p) {
+  const VoxelShadow& s = p.shadow;
+  const int there = s.width > 0 || s.height > 0;
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow.width", s.width, there, 32768));
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow.height", s.height, there, 32768));
+  if (there == 0) return {};
+  if (p.lights == 0) return out_of_range("VoxelInjectParams.lights", p.lights, "1..65536 with a shadow map");
+  const auto inner = [](const std::array<double, 4>& a, const std::array<double, 4>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const double u = std::sqrt(inner(s.to_x, s.to_x)), v = std::sqrt(inner(s.to_y, s.to_y)),
+               w = std::sqrt(inner(s.to_depth, s.to_depth));
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow.to_x's length", u, 1.0, 8.0));
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow.to_y's length", v, 1.0, 8.0));
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow.to_depth's length", w, 1e-20, 1e20));
+  const double tilt = std::max({std::fabs(inner(s.to_x, s.to_y)) / (u * v), std::fabs(inner(s.to_x, s.to_depth)) / (u * w),
+                                std::fabs(inner(s.to_y, s.to_depth)) / (v * w)});
+  LUXEL_CHECK(check_range("VoxelInjectParams.shadow's cosine between directions", tilt, 0.0, 1e-4));
+  for (const auto& row : {s.to_x, s.to_y, s.to_depth})
+    LUXEL_CHECK(check_range("VoxelInjectParams.shadow's offset", row[3], -1e30, 1e30));
+  return {};
+}
+
 }  // namespace
+
+VoxelShadow voxel_shadow(const std::array<int, 3>& extent, const std::array<double, 3>& direction, double texels) {
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  const std::array<double, 3> l{direction[0] / length, direction[1] / length, direction[2] / length};
+  const std::array<double, 3> axis = std::fabs(l[1]) < 0.9 ? std::array<double, 3>{0, 1, 0} : std::array<double, 3>{1, 0, 0};
+  const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  std::array<double, 3> right = cross(axis, l);
+  const double scale = 1 / std::hypot(right[0], right[1], right[2]);
+  for (double& c : right) c *= scale;
+  const std::array<double, 3> up = cross(l, right);
+  const double across = std::hypot(extent[0], extent[1], extent[2]);
+  VoxelShadow shadow;
+  // At least so many texels a voxel, in a map that a buffer can hold.
+  shadow.width = shadow.height = std::min(32768, static_cast<int>(std::ceil(across * texels)));
+  const auto row = [&](const std::array<double, 3>& d, double size, double middle) {
+    std::array<double, 4> r{size * d[0], size * d[1], size * d[2], middle};
+    for (std::size_t i = 0; i < 3; ++i) r[3] -= r[i] * extent[i] / 2;
+    return r;
+  };
+  shadow.to_x = row(right, texels, shadow.width / 2.0);
+  shadow.to_y = row(up, texels, shadow.height / 2.0);
+  shadow.to_depth = row(l, -1, across / 2);
+  return shadow;
+}
 
 Status validate(const VoxelInjectParams& p) {
   LUXEL_CHECK(check_range("VoxelInjectParams.width", p.width, 1, 2048));
@@ -62,6 +112,7 @@ Status validate(const VoxelInjectParams& p) {
   LUXEL_CHECK(check_above_zero("VoxelInjectParams.irradiance_max", p.irradiance_max));
   if (least && sums_of(p) > 0x7fffffff)
     return out_of_range("VoxelInjectParams.bricks", p.bricks, "1..1048575 with a map");
+  LUXEL_CHECK(check_shadow(p));
   LUXEL_CHECK(check_above_zero("VoxelInjectParams.voxel", p.voxel));
   return check_above_zero("VoxelInjectParams.scale", p.scale);
 }
@@ -92,6 +143,10 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
   const Slot counters = resource("voxel_counters", Format::u32, 64);
   const Slot lights =
       list ? resource("lights", Format::f32x4, static_cast<std::size_t>(std::max(p.lights, 1)) * 48) : Slot{};
+  const Slot shadow = p.shadow.width > 0 ? resource("shadow", Format::f32x1,
+                                                    static_cast<std::size_t>(p.shadow.width) *
+                                                        static_cast<std::size_t>(p.shadow.height) * 4)
+                                         : counters;  // never read without a map
   const Slot texels =
       map ? resource("map", Format::f32x4,
                      static_cast<std::size_t>(p.map_width) * static_cast<std::size_t>(p.map_height) * 32)
@@ -141,7 +196,7 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                                                        {"voxel_counters", counters},
                                                        {"radiance", radiance},
                                                        {"outcomes", outcomes}};
-  if (list) slots.insert(slots.end(), {{"normal", normal}, {"lights", lights}});
+  if (list) slots.insert(slots.end(), {{"normal", normal}, {"lights", lights}, {"shadow", shadow}});
   if (map) slots.emplace_back("sums", sums);
   if (p.emission) slots.emplace_back("emission", emission);
   const std::string module = std::string(!map   ? "lights_"
@@ -158,8 +213,22 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                 {"normal_offset", p.normal_offset},
                 {"two_sided", p.two_sided},
                 {"unit", p.irradiance_max / steps},
-                {"scale", p.scale}},
-               {{"COUNT", p.count}, {"TORUS", p.toroidal}}, slots);
+                {"scale", p.scale},
+                {"shadow_width", p.shadow.width},
+                {"shadow_height", p.shadow.height},
+                {"u_x", p.shadow.to_x[0]},
+                {"u_y", p.shadow.to_x[1]},
+                {"u_z", p.shadow.to_x[2]},
+                {"u_at", p.shadow.to_x[3]},
+                {"v_x", p.shadow.to_y[0]},
+                {"v_y", p.shadow.to_y[1]},
+                {"v_z", p.shadow.to_y[2]},
+                {"v_at", p.shadow.to_y[3]},
+                {"w_x", p.shadow.to_depth[0]},
+                {"w_y", p.shadow.to_depth[1]},
+                {"w_z", p.shadow.to_depth[2]},
+                {"w_at", p.shadow.to_depth[3]}},
+               {{"COUNT", p.count}, {"TORUS", p.toroidal}, {"SHADOW", p.shadow.width > 0}}, slots);
   planner.cost(0, static_cast<double>(p.bricks) * static_cast<double>(brick_voxels * pixel * (3 + p.emission)));
   return std::move(planner).finish();
 }

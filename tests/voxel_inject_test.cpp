@@ -20,6 +20,7 @@ double inner(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[
 struct Grid {
   int n[3];
   std::vector<float> colour, normal, emission;
+  std::vector<float> shadow;  // depths of a map
   std::vector<std::uint32_t> bricks, counters = std::vector<std::uint32_t>(16);
 
   Grid(int x, int y, int z) : n{x, y, z}, colour(voxels() * 4), normal(voxels() * 4), emission(voxels() * 4) {}
@@ -77,6 +78,7 @@ std::vector<Bytes> inject(const std::string& device, const Grid& g, const VoxelI
   if (lights > 0)
     inputs.push_back(
         {"lights", encode(Format::f32x4, {light.begin(), light.begin() + static_cast<std::ptrdiff_t>(lights)}, wide)});
+  if (p.shadow.width > 0) inputs.push_back({"shadow", encode(Format::f32x1, g.shadow, wide)});
   if (p.map_width > 0)
     inputs.push_back(
         {"map", encode(Format::f32x4, {light.begin() + static_cast<std::ptrdiff_t>(lights), light.end()}, wide)});
@@ -220,6 +222,129 @@ TEST(VoxelInject, APlateCastsItsShadowAndGlassPassesItsShare) {
   }
 }
 
+// A ray that is moved off the floor must end below the ceiling that its lamp hangs in.
+TEST(VoxelInject, LampsAtACeilingLightTheFloorBelow) {
+  Grid g(16, 24, 16);
+  floor_at(g, 1);
+  for (int z = 0; z < 16; ++z)
+    for (int x = 0; x < 16; ++x) g.put(x, 22, z, {0.5f, 0.5f, 0.5f, 1.0f}, {0, -1, 0});
+  g.list_bricks();
+  const double lamp = 22.5, under = 20.5, floor = 1.5;
+  const std::vector<VoxelLight> lamps{{VoxelLight::Kind::patch, {8.5, lamp, 8.5}, {100, 100, 100}, {0, -1, 0}, 1},
+                                      {VoxelLight::Kind::point, {8.5, under, 8.5}, {100, 100, 100}, {}, 0}};
+  for (const VoxelLight& light : lamps)
+    for (const std::string& device : all_devices()) {
+      VoxelInjectParams p = g.params();
+      p.lights = 1;
+      const std::vector<double> r = radiance(device, g, p, voxel_lights({light}, {0, 0, 0}, 1));
+      ASSERT_EQ(r.size(), g.voxels() * 4);
+      const bool patch = light.kind == VoxelLight::Kind::patch;
+      const double height = light.place[1] - floor;
+      for (int x = 0; x < 16; ++x) {
+        const double squared = (x - 8) * (x - 8) + height * height, cosine = height / std::sqrt(squared);
+        const double e = 100 * cosine * (patch ? cosine / (squared + 1 / std::numbers::pi) : 1 / squared);
+        EXPECT_NEAR(r[g.at(x, 1, 8) * 4], 0.5 / std::numbers::pi * e, e * float_bound) << device << " " << x;
+      }
+    }
+}
+
+// Depths of a map that sees a floor at height `low` and, before `edge`, a plate at `high`.
+void see_floor(Grid& g, const VoxelShadow& s, const Vec& sun, double low, double high, double edge) {
+  g.shadow.assign(static_cast<std::size_t>(s.width) * s.height, 1e30f);
+  const auto along = [](const std::array<double, 4>& row, const Vec& p) {
+    return row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
+  };
+  for (int j = 0; j < s.height; ++j)
+    for (int i = 0; i < s.width; ++i) {
+      // The texel's ray, at depth 0.
+      Vec p{};
+      const double part[3] = {i + 0.5 - s.to_x[3], j + 0.5 - s.to_y[3], -s.to_depth[3]};
+      int k = 0;
+      for (const auto& row : {s.to_x, s.to_y, s.to_depth}) {
+        for (int c = 0; c < 3; ++c) p[c] += part[k] * row[c] / along(row, {row[0], row[1], row[2]});
+        ++k;
+      }
+      const double to_plate = (p[1] - high) / sun[1], to_floor = (p[1] - low) / sun[1];
+      const double depth = p[0] - to_plate * sun[0] < edge ? to_plate : to_floor;
+      g.shadow[static_cast<std::size_t>(j) * s.width + i] = static_cast<float>(depth);
+    }
+}
+
+// The voxels hold no plate: only the map knows it.
+TEST(VoxelInject, AShadowMapGivesTheShareOfAVoxelThatIsLit) {
+  Grid g(24, 12, 9);
+  floor_at(g, 2);
+  g.list_bricks();
+  const double plate = 9, edge = 10.5, floor = 2.5;
+  for (const double degrees : {0.0, 40.0, 80.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec sun{std::sin(angle), std::cos(angle), 0};
+    const std::vector<float> light = voxel_lights({{VoxelLight::Kind::sun, sun, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
+    const double full = 0.5 / std::numbers::pi * std::cos(angle);
+    // The plate's shadow ends here. Texels count whole: 4 of them along the light's projection of a voxel.
+    const double shade = edge - (plate - floor) * std::tan(angle), texel = 1 / (4 * std::cos(angle));
+    std::vector<double> first;
+    for (const std::string& device : all_devices()) {
+      VoxelInjectParams p = g.params();
+      p.lights = 1;
+      p.shadow = voxel_shadow({24, 12, 9}, sun, 4);
+      see_floor(g, p.shadow, sun, floor, plate, edge);
+      const std::vector<double> r = radiance(device, g, p, light);
+      ASSERT_EQ(r.size(), g.voxels() * 4);
+      for (int x = 1; x < 23; ++x) {
+        const double share = std::clamp(x + 1 - shade, 0.0, 1.0);
+        EXPECT_NEAR(r[g.at(x, 2, 4) * 4], share * full, full * (share > 0 && share < 1 ? texel : float_bound))
+            << device << " " << degrees << " " << x;
+      }
+      if (device == "cpu:double") continue;
+      if (first.empty()) first = r;
+      EXPECT_TRUE(r == first) << device;
+    }
+  }
+}
+
+TEST(VoxelInject, WhereAMapTellsNothingRaysDo) {
+  Grid g(12, 12, 12);
+  floor_at(g, 2);
+  for (int z = 0; z < 6; ++z) g.put(4, 9, z, {0, 0, 0, 1}, {0, 1, 0});
+  g.list_bricks();
+  const std::vector<float> light =
+      voxel_lights({{VoxelLight::Kind::sun, {0.2, 1, 0.1}, {1, 1, 1}, {}, 0}}, {0, 0, 0}, 1);
+  for (const std::string& device : all_devices()) {
+    VoxelInjectParams p = g.params();
+    p.lights = 1;
+    const std::vector<double> without = radiance(device, g, p, light);
+    p.shadow = voxel_shadow({12, 12, 12}, {0.2, 1, 0.1}, 2);
+    g.shadow.assign(static_cast<std::size_t>(p.shadow.width) * p.shadow.height, 1e30f);
+    EXPECT_TRUE(radiance(device, g, p, light) == without) << device;
+  }
+}
+
+TEST(VoxelInject, RefusesShadowMapsThatItCannotRead) {
+  Grid g(8, 8, 8);
+  floor_at(g, 1);
+  g.list_bricks();
+  VoxelInjectParams good = g.params();
+  good.lights = 1;
+  good.shadow = voxel_shadow({8, 8, 8}, {1, 2, 3}, 2);
+  EXPECT_TRUE(validate(good)) << validate(good).message();
+  VoxelInjectParams p = good;
+  p.lights = 0;
+  EXPECT_EQ(validate(p).message(), "VoxelInjectParams.lights is 0; expected 1..65536 with a shadow map");
+  p = good;
+  p.shadow.height = 0;
+  EXPECT_EQ(validate(p).message(), "VoxelInjectParams.shadow.height is 0; expected 1..32768");
+  p = good;
+  for (double& v : p.shadow.to_x) v *= 8;
+  EXPECT_FALSE(validate(p));
+  p = good;
+  p.shadow.to_y = p.shadow.to_x;
+  EXPECT_FALSE(validate(p));
+  p = good;
+  p.shadow.to_depth[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(validate(p));
+}
+
 TEST(VoxelInject, OnlyFrontsAreLitWhereThatIsAsked) {
   Grid g(16, 8, 16);
   floor_at(g, 3);
@@ -308,22 +433,24 @@ TEST(VoxelInject, LightsThroughAnyVolume) {
           double e[3] = {0, 0, 0};
           for (std::size_t k = 0; k < several.size(); ++k) {
             Vec to{light[12 * k], light[12 * k + 1], light[12 * k + 2]};
-            double reach = 1e9, share = 1;
+            double reach = 1e9, share = 1, tilt = 1;
             if (k > 0) {
               for (int i = 0; i < 3; ++i) to[i] -= centre[i];
               reach = std::sqrt(inner(to, to));
               for (double& v : to) v /= reach;
               share = 1 / (reach * reach);
               if (k == 2) {
-                const double tilt = -(to[0] * light[32] + to[1] * light[33] + to[2] * light[34]);
-                share *= std::max(0.0, tilt);
-                reach -= offset / std::max(tilt, 1e-30);
+                tilt = std::max(1e-30, -(to[0] * light[32] + to[1] * light[33] + to[2] * light[34]));
+                share *= tilt > 1e-30 ? tilt : 0;
               }
             }
             const double facing = inner(n, to);
             share *= std::abs(facing) + (1 - length) / 4;
-            Vec from;
-            for (int i = 0; i < 3; ++i) from[i] = centre[i] + offset * (facing < 0 ? -1 : 1) * n[i] / length;
+            Vec from, above;
+            for (int i = 0; i < 3; ++i) above[i] = (facing < 0 ? -1 : 1) * n[i] / length;
+            for (int i = 0; i < 3; ++i) from[i] = centre[i] + offset * above[i];
+            if (k == 1) reach -= offset * inner(above, to);
+            if (k == 2) reach += offset * (inner(above, {light[32], light[33], light[34]}) - 1) / tilt;
             // Rays that begin outside see no voxels.
             bool inside = true;
             for (int i = 0; i < 3; ++i) inside = inside && from[i] >= 0 && from[i] < g.n[i];

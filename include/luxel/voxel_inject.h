@@ -25,6 +25,19 @@ struct VoxelLight {
                                           // at distance d it counts as a disc seen along its axis, 1 / (d^2 + area / pi)
 };
 
+/// An orthographic shadow map in voxels: a place p (from the outer corner of voxel (0,0,0)) is seen at
+/// (to_x . (p, 1), to_y . (p, 1)) in texels, and its depth is to_depth . (p, 1), which grows away from the light. The
+/// three directions stand on each other.
+struct VoxelShadow {
+  int width = 0;   // texels, 1..32768; 0: there is none
+  int height = 0;  // 1..32768
+  std::array<double, 4> to_x{}, to_y{}, to_depth{};
+};
+
+/// The map that sees a whole grid from a light in `direction` (any length but 0), `texels` (1..8) a voxel; depths in
+/// voxels from a plane that touches the grid's circumscribed sphere.
+VoxelShadow voxel_shadow(const std::array<int, 3>& extent, const std::array<double, 3>& direction, double texels);
+
 struct VoxelInjectParams {
   int width = 0;                  // voxels, 1..2048, as voxelize had them
   int height = 0;                 // 1..2048
@@ -36,6 +49,7 @@ struct VoxelInjectParams {
   int lights = 0;                 // in the list, each with a shadow ray through the voxels, 0..65536
   int map_width = 0;              // of a reflective shadow map (or any list of lit points), 0..32768; 0: there is none
   int map_height = 0;             // 1..32768 with a map, else 0
+  VoxelShadow shadow{};           // of the list's first light, which is a sun; texels no larger than a voxel, no less than 1/8
   double irradiance_max = 1;      // of the map: largest of a channel, > 0; summed in steps of 2^-14 of it
   bool emission = false;          // the volume `emission` is there
   bool clear = true;              // the whole volume is written; false: only touched bricks (a light moved, voxels did not)
@@ -58,13 +72,14 @@ enum class VoxelInjectCount {
 
 /// Resources of the plan: read `colour` (straight base colour and coverage), `normal` (with lights; mean of unit normals; unorm8:
 /// n/2 + 1/2), `emission` (radiance; with `emission`), `bricks` and `voxel_counters` (voxelize's `bricks` and `counters`),
-/// `lights` (with lights; three vec4 a light: voxel_lights), `map` (with a map; two vec4 a texel: position in voxels from
+/// `lights` (with lights; three vec4 a light: voxel_lights), `shadow` (with a shadow map; a float a texel, the depth at its
+/// centre, >= 1e10 where there is nothing), `map` (with a map; two vec4 a texel: position in voxels from
 /// the outer corner of voxel (0,0,0), and 1 where light arrives, else 0; irradiance there, and an unused channel; a voxel
 /// gets the mean of its texels); written `radiance` (premultiplied radiance and coverage; with `clear` every voxel, else
 /// those of touched bricks) and `outcomes` (8 u32; with `count`).
 /// A voxel has one radiance for all sides. Its irradiance from a light of direction l is E T (|N.l| + (1 - |N|) / 4): N is
-/// the mean normal, and what its length lacks faces everywhere; T is the transmittance of the shadow ray. With two_sided off
-/// |N.l| is max(0, N.l).
+/// the mean normal, and what its length lacks faces everywhere; T is the transmittance of the shadow ray, a product over voxels; with a shadow map the share
+/// of the voxel's surface that it sees lit. With two_sided off |N.l| is max(0, N.l).
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelInjectParams& params);
 Result<Plan> plan(const VoxelInjectParams& params, const Profile& profile);

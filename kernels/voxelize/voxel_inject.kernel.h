@@ -70,6 +70,48 @@ FN float transmittance(CTX, vec3 from, vec3 direction, float reach) {
     return passed;
 }
 
+// Half a voxel, and what depths of a map may be off.
+FN bool in_voxel(vec3 p) { return max(abs(p.x), max(abs(p.y), abs(p.z))) <= 0.55f; }
+
+// The share of the voxel's surface that the shadow map's light reaches: of the rays of light (texels) towards the voxel,
+// those that end in it against those that something nearer stops; less than 0 where there are neither. Rays
+// that end beside it, in the surface of which it is a part, tell nothing.
+FN float share_seen(CTX, vec3 centre, vec3 above, bool plane) {
+    const vec3 u = vec3(params.u_x, params.u_y, params.u_z);
+    const vec3 v = vec3(params.v_x, params.v_y, params.v_z);
+    const vec3 w = vec3(params.w_x, params.w_y, params.w_z);
+    const vec3 place = vec3(inner(u, centre) + params.u_at, inner(v, centre) + params.v_at, inner(w, centre) + params.w_at);
+    const vec3 per_u = u / inner(u, u);
+    const vec3 per_v = v / inner(v, v);
+    const vec3 per_w = w / inner(w, w);
+    const float reach_u = 0.5f * (abs(u.x) + abs(u.y) + abs(u.z));
+    const float reach_v = 0.5f * (abs(v.x) + abs(v.y) + abs(v.z));
+    const float behind = 1.7320508f * sqrt(inner(w, w));  // a voxel's diagonal
+    const float most_x = float(params.shadow_width);
+    const float most_y = float(params.shadow_height);
+    const int first_x = int(clamp(place.x - reach_u + 0.5f, 0.0f, most_x));
+    const int first_y = int(clamp(place.y - reach_v + 0.5f, 0.0f, most_y));
+    const int last_x = int(clamp(place.x + reach_u + 0.5f, 0.0f, most_x));
+    const int last_y = int(clamp(place.y + reach_v + 0.5f, 0.0f, most_y));
+    int ended = 0;
+    int stopped = 0;
+    for (int y = first_y; y < last_y; ++y) {
+        for (int x = first_x; x < last_x; ++x) {
+            const float deep = load(shadow, y * params.shadow_width + x) - place.z;
+            const vec3 hit = (float(x) + 0.5f - place.x) * per_u + (float(y) + 0.5f - place.y) * per_v + deep * per_w;
+            const float height = inner(above, hit);
+            if (in_voxel(hit)) {
+                ++ended;
+            } else if (plane) {  // stopped on the way to the plane's part in the voxel
+                if (deep < 0.0f && height > 1.0f && in_voxel(hit - height / inner(above, per_w) * per_w)) ++stopped;
+            } else if (deep < -behind) {
+                ++stopped;
+            }
+        }
+    }
+    return ended + stopped > 0 ? float(ended) / float(ended + stopped) : -1.0f;
+}
+
 // Irradiance by one light; n: mean normal, `length` long.
 FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
     const vec4 place = load(lights, 3 * light);
@@ -78,6 +120,7 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
     vec3 to = vec3(place.x, place.y, place.z);
     float reach = 1.0e30f;
     float share = 1.0f;
+    float tilt = 1.0f;
     if (place.w != float(LIGHT_SUN)) {
         to = to - centre;
         const float squared = inner(to, to);
@@ -86,10 +129,9 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
         to = to / reach;
         share = 1.0f / ((squared + power.w) * params.voxel * params.voxel);
         if (place.w == float(LIGHT_PATCH)) {
-            const float tilt = -inner(to, vec3(front.x, front.y, front.z));
+            tilt = -inner(to, vec3(front.x, front.y, front.z));
             if (!(tilt > 0.0f)) return vec3(0.0f);
             share = share * tilt;
-            reach = reach - params.normal_offset / tilt;  // the patch is a surface too: the ray ends above it
         }
     }
     const float facing = inner(n, to);
@@ -97,7 +139,16 @@ FN vec3 irradiance_by(CTX, int light, vec3 centre, vec3 n, float length) {
     if (!(share > 0.0f)) return vec3(0.0f);
     vec3 above = to;
     if (length > 0.0f) above = (facing < 0.0f && params.two_sided != 0 ? -1.0f : 1.0f) / length * n;
-    share = share * transmittance(ctx, centre + params.normal_offset * above, to, reach);
+    float passed = -1.0f;
+    if (SHADOW != 0 && light == 0) passed = share_seen(ctx, centre, above, length >= 0.5f);
+    if (passed < 0.0f) {
+        // The ray is moved off the surface, and ends where it comes as near to the light, or as far above the patch.
+        if (place.w == float(LIGHT_POINT)) reach = reach - params.normal_offset * inner(above, to);
+        if (place.w == float(LIGHT_PATCH))
+            reach = reach + params.normal_offset * (inner(above, vec3(front.x, front.y, front.z)) - 1.0f) / tilt;
+        passed = transmittance(ctx, centre + params.normal_offset * above, to, reach);
+    }
+    share = share * passed;
     return share * vec3(power.x, power.y, power.z);
 }
 

@@ -35,10 +35,25 @@
     _(float, normal_offset)  /* voxels */ \
     _(int, two_sided)        /* 0: only the side that the mean normal points to is lit */ \
     _(float, unit)           /* irradiance of one step of the map's sums */ \
-    _(float, scale)          /* of stored radiance */
+    _(float, scale)          /* of stored radiance */ \
+    _(int, shadow_width)     /* texels of the first light's shadow map */ \
+    _(int, shadow_height) \
+    _(float, u_x)            /* from positions in voxels to texels, and to what the map holds */ \
+    _(float, u_y) \
+    _(float, u_z) \
+    _(float, u_at) \
+    _(float, v_x) \
+    _(float, v_y) \
+    _(float, v_z) \
+    _(float, v_at) \
+    _(float, w_x) \
+    _(float, w_y) \
+    _(float, w_z) \
+    _(float, w_at)
 #define CONSTANTS(_) \
     _(0, int, COUNT, 0)  /* 1: outcomes are counted */ \
-    _(1, int, TORUS, 0)  /* 1: the grid is a window, its volumes are addressed modulo their extents */
+    _(1, int, TORUS, 0)  /* 1: the grid is a window, its volumes are addressed modulo their extents */ \
+    _(2, int, SHADOW, 0) /* 1: the first light has a shadow map */
 #if EMISSION
 #define EMITTED(_) _(READ, 7, PIXEL, emission)
 #else
@@ -47,7 +62,8 @@
 #if LIGHTS
 #define LISTED(_) \
     _(READ, 1, PIXEL, normal) \
-    _(READ, 6, vec4, lights)
+    _(READ, 6, vec4, lights) \
+    _(READ, 9, float, shadow)
 #else
 #define LISTED(_)
 #endif
