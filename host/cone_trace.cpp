@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
+#include <numbers>
 
 #include "host/check.h"
 #include "host/planner.h"
@@ -16,7 +17,8 @@ using Extent = std::array<int, 3>;
 constexpr std::size_t most_cones = 64;
 constexpr int cone_stride = 8;      // floats a cone in the kernel's table
 constexpr int spread_count = 65;    // spreads over roughness 0..1
-constexpr int spread_table = 68;    // as the kernel declares it
+constexpr int spread_table = 136;   // as the kernel declares it: spreads, and levels of the sky from 68 on
+constexpr int turns = 64;           // about the normal, in what the table of cones has to spare
 
 std::size_t texels(const Extent& e) { return static_cast<std::size_t>(e[0]) * e[1] * e[2]; }
 std::size_t aligned(std::size_t n) { return (n + 63) / 64 * 64; }
@@ -148,8 +150,13 @@ Status validate(const ConeTraceParams& p) {
   LUXEL_CHECK(check_range("ConeTraceParams.normal_offset", p.normal_offset, 0.0, 64.0));
   LUXEL_CHECK(check_range("ConeTraceParams.start", p.start, 0.0, 64.0));
   LUXEL_CHECK(check_range("ConeTraceParams.max_distance", p.max_distance, 0.0, 1e30));
+  LUXEL_CHECK(check_range("ConeTraceParams.seed", p.seed, 0, 0x7fffffff));
   LUXEL_CHECK(check_range("ConeTraceParams.gamma", p.gamma, 0.0, 1e30));
   for (const double e : p.environment) LUXEL_CHECK(check_range("ConeTraceParams.environment", e, 0.0, 1e30));
+  LUXEL_CHECK(check_range("ConeTraceParams.sky_size", p.sky_size, 0, 1024));
+  if (p.sky_size == 1) return out_of_range("ConeTraceParams.sky_size", p.sky_size, "0, or 2..1024");
+  LUXEL_CHECK(check_range("ConeTraceParams.sky_levels", p.sky_levels, 1, 16));
+  LUXEL_CHECK(check_range("ConeTraceParams.sky_aperture", p.sky_aperture, 0.01, 2.6));
   LUXEL_CHECK(check_range("ConeTraceParams.error", p.error, 0.0, 1e30));
   LUXEL_CHECK(check_range("ConeTraceParams.radiance_max", p.radiance_max, 1e-30, 1e30));
   LUXEL_CHECK(check_range("ConeTraceParams.max_steps", p.max_steps, 0, 1 << 20));
@@ -184,7 +191,15 @@ struct Tables {
   std::vector<double> rounded, exact;
 };
 
-Tables cone_table(const std::vector<Cone>& cones, double footprint) {
+// Between the levels of the sky.
+double sky_level(const ConeTraceParams& p, double aperture) {
+  if (p.sky_size == 0 || p.sky_levels == 1) return 0;
+  const double level = std::log2(p.sky_aperture / std::max(aperture, 1e-9));
+  const double whole = std::round(level);
+  return std::clamp(std::fabs(level - whole) < 1e-9 ? whole : level, 0.0, p.sky_levels - 1.0);
+}
+
+Tables cone_table(const ConeTraceParams& p, const std::vector<Cone>& cones) {
   const std::vector<float> weights = float_weights(cones);
   Tables t;
   t.exact.assign(most_cones * cone_stride, 0);
@@ -195,7 +210,12 @@ Tables cone_table(const std::vector<Cone>& cones, double footprint) {
     const double length = std::hypot(c.direction[0], c.direction[1], c.direction[2]);
     for (std::size_t axis = 0; axis < 3; ++axis) t.exact[i * cone_stride + axis] = c.direction[axis] / length;
     t.exact[i * cone_stride + 3] = c.weight / sum;
-    t.exact[i * cone_stride + 4] = footprint * 2 * std::tan(c.aperture / 2);
+    t.exact[i * cone_stride + 4] = p.footprint * 2 * std::tan(c.aperture / 2);
+    t.exact[i * cone_stride + 5] = sky_level(p, c.aperture);
+  }
+  for (int i = 0; p.rotate && i < turns; ++i) {
+    t.exact[i * cone_stride + 6] = std::cos(2 * std::numbers::pi * i / turns);
+    t.exact[i * cone_stride + 7] = std::sin(2 * std::numbers::pi * i / turns);
   }
   t.rounded.assign(t.exact.begin(), t.exact.end());
   for (double& v : t.rounded) v = static_cast<float>(v);
@@ -203,10 +223,14 @@ Tables cone_table(const std::vector<Cone>& cones, double footprint) {
   return t;
 }
 
-Tables spreads(double footprint) {
+Tables spreads(const ConeTraceParams& p) {
   Tables t;
   t.exact.assign(spread_table, 0);
-  for (int i = 0; i < spread_count; ++i) t.exact[i] = footprint * 2 * std::tan(specular_aperture(i / (spread_count - 1.0)) / 2);
+  for (int i = 0; i < spread_count; ++i) {
+    const double aperture = specular_aperture(i / (spread_count - 1.0));
+    t.exact[i] = p.specular_footprint * 2 * std::tan(aperture / 2);
+    t.exact[spread_table / 2 + i] = sky_level(p, aperture);
+  }
   t.rounded.assign(t.exact.begin(), t.exact.end());
   for (double& v : t.rounded) v = static_cast<float>(v);
   return t;
@@ -225,6 +249,13 @@ class ConeTracing {
     if (cone_trace_levels(p_) > 1 && !clipmap)
       coarse_ = volume("coarse", image ? cone_trace_atlas_extent(p_) : Extent{1, 1, 1}, cone_trace_coarse_texels(p_));
     receivers_ = list("receivers", 2, false);
+    sky_ = receivers_;  // never read without a sky
+    if (p_.sky_size > 0 && (p_.radiance || p_.specular)) {
+      Resource sky{"sky"};
+      sky.format = Format::f32x4;
+      sky.bytes = static_cast<std::size_t>(p_.sky_levels * p_.sky_size) * static_cast<std::size_t>(p_.sky_size) * 16;
+      sky_ = planner_.resource(sky);
+    }
     if (p_.specular) views_ = list("views", 1, false);
     if (p_.radiance || p_.occlusion) irradiance_ = list("irradiance", 1, true);
     if (p_.specular) specular_ = list("specular", 1, true);
@@ -239,12 +270,12 @@ class ConeTracing {
 
   Result<Plan> plan() && {
     if (p_.radiance || p_.occlusion) {
-      const Tables t = cone_table(cones_, p_.footprint);
+      const Tables t = cone_table(p_, cones_);
       pass("diffuse", p_.radiance, p_.occlusion, static_cast<int>(cones_.size()),
            {{"cones", planner_.table(t.rounded, t.exact)}, {"irradiance", irradiance_}});
     }
     if (p_.specular) {
-      const Tables t = spreads(p_.specular_footprint);
+      const Tables t = spreads(p_);
       pass("specular", true, true, 1,
            {{"spreads", planner_.table(t.rounded, t.exact)}, {"views", views_}, {"specular", specular_}});
     }
@@ -309,7 +340,7 @@ class ConeTracing {
   void pass(const std::string& what, bool radiance, bool occlusion, int cones, const Slots& own) {
     const double reach = p_.max_distance > 0 ? p_.max_distance / p_.voxel : FLT_MAX;
     const Extent atlas = p_.input == Input::image && cone_trace_levels(p_) > 1 ? cone_trace_atlas_extent(p_) : Extent{};
-    Slots slots{{"fine", fine_}, {"coarse", coarse_}, {"receivers", receivers_}};
+    Slots slots{{"fine", fine_}, {"coarse", coarse_}, {"receivers", receivers_}, {"sky", sky_}};
     slots.insert(slots.end(), own.begin(), own.end());
     if (p_.count) slots.emplace_back("counters", counters_);
     std::array<double, 3> origin = p_.origin;  // a clipmap's: the corner of the finest window
@@ -347,12 +378,16 @@ class ConeTracing {
                    {"environment_b", radiance ? p_.environment[2] : 0},
                    {"cones", cones},
                    {"pattern_x", p_.pattern_x},
-                   {"pattern_y", p_.pattern_y}},
+                   {"pattern_y", p_.pattern_y},
+                   {"seed", p_.seed},
+                   {"sky_size", p_.sky_size}},
                   {{"ANISOTROPIC", p_.variant == ConeVariant::anisotropic},
                    {"RADIANCE", radiance},
                    {"OCCLUSION", !occlusion ? 0 : p_.gamma > 0 ? 2 : 1},
                    {"SKIP_EMPTY", p_.skip_empty},
-                   {"OWN_LENGTH", p_.clipmap_own_length}},
+                   {"OWN_LENGTH", p_.clipmap_own_length},
+                   {"ROTATE", p_.rotate && what == "diffuse"},
+                   {"SKY", p_.sky_size > 0 && radiance}},
                   slots);
     const double receivers = static_cast<double>(p_.width) * p_.height;
     const double volumes = static_cast<double>(texels(p_.extent) + cone_trace_coarse_texels(p_));
@@ -363,7 +398,7 @@ class ConeTracing {
   const Profile& profile_;
   Planner planner_;
   std::vector<Cone> cones_;
-  Slot fine_, coarse_, receivers_, views_, irradiance_, specular_, counters_;
+  Slot fine_, coarse_, receivers_, sky_, views_, irradiance_, specular_, counters_;
 };
 
 }  // namespace

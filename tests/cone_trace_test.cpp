@@ -1,9 +1,11 @@
 // cone_trace: sets of cones, the recurrence in closed form, equal bits on every execution, refusals.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "bench/scene/images.h"
 #include "bench/scene/volumes.h"
 #include "bench/truth/cone_truth.h"
 #include "tests/cases/compare.h"
@@ -284,6 +286,115 @@ TEST(ConeTrace, APatternDealsTheWholeSetToATile) {
         if (i % 10 / 5 == tile) mean += dealt.value().irradiance[i * 4 + c] / 25;
       EXPECT_NEAR(mean, whole.value().irradiance[c], 1e-5) << tile << " " << c;
     }
+}
+
+// Each receiver has one of 64 turns, by its tile; what it gives is what a set turned by hand gives.
+TEST(ConeTrace, TurnedSetsAreThoseTurnedByHand) {
+  ConeTraceParams p = cone_params(16);
+  p.width = 12;
+  p.height = 6;
+  p.seed = 77;
+  Values receivers;
+  for (int i = 0; i < 72; ++i) add_receiver(receivers, {0.6, 0.7, 0.3}, {0.1, 0.2, 0.9});
+  const Values room = scene::voxel_room(16);
+  for (const int pattern : {1, 3}) {
+    p.pattern_x = p.pattern_y = pattern;
+    p.rotate = true;
+    const auto turned = trace(test_context("cpu"), p, room, receivers);
+    ASSERT_TRUE(turned) << turned.status().message();
+    ConeTraceParams by_hand = p;
+    by_hand.rotate = false;
+    std::vector<std::uint32_t> seen;
+    for (int i = 0; i < 72; ++i) {
+      const int tile = i / 12 / pattern * pattern * 12 + i % 12 / pattern * pattern;
+      const std::uint32_t turn = scene::hash(static_cast<std::uint32_t>(tile) + scene::hash(77)) >> 26;
+      if (std::find(seen.begin(), seen.end(), turn) == seen.end()) seen.push_back(turn);
+      if (i > 20) continue;
+      by_hand.cones = cone_set(6).value();
+      const double c = std::cos(2 * pi * turn / 64), s = std::sin(2 * pi * turn / 64);
+      for (Cone& cone : by_hand.cones)
+        cone.direction = {c * cone.direction[0] - s * cone.direction[1], s * cone.direction[0] + c * cone.direction[1],
+                          cone.direction[2]};
+      const auto expected = trace(test_context("cpu"), by_hand, room, receivers);
+      for (int k = 0; k < 4; ++k)
+        EXPECT_NEAR(turned.value().irradiance[i * 4 + k], expected.value().irradiance[i * 4 + k], 1e-5) << i;
+    }
+    EXPECT_GT(seen.size(), pattern == 1 ? 32u : 4u);  // 72 draws of 64, 8 of 64
+    p.seed = 78;
+    const auto other = trace(test_context("cpu"), p, room, receivers);
+    EXPECT_GT(count_different(other.value().irradiance, turned.value().irradiance), 72);
+    p.seed = 77;
+    for (const std::string& device : test_devices()) {
+      const auto r = trace(test_context(device), p, room, receivers);
+      EXPECT_EQ(count_different(r.value().irradiance, turned.value().irradiance), 0) << device;
+    }
+  }
+}
+
+// A sky of band 1 over nothing: caps shrink it by (1 + cos h) / 2, the set gives 2/3 of it back, whatever the cones.
+TEST(ConeTrace, ASkyIsSeenByCapsAsWideAsTheCones) {
+  const auto radiance = [](const std::array<double, 3>& d) {
+    return std::array<double, 3>{1 + 0.5 * d[0] - 0.2 * d[2], 1 - 0.7 * d[1], 2};
+  };
+  ConeTraceParams p = cone_params(4);
+  p.environment = {1, 2, 0.5};
+  p.sky_size = 33;
+  p.sky_levels = 6;
+  p.specular = true;
+  p.width = 40;
+  const Values receivers = cone_receivers(p, p.width, 9), empty = uniform_volume(4, {0, 0, 0, 0});
+  Values views;
+  for (int i = 0; i < p.width; ++i) {  // along the normal: mirrored into itself
+    for (int c = 4; c < 7; ++c) views.push_back(receivers[i * 8 + c]);
+    views.push_back(0);
+  }
+  const std::vector<float> sky = cone_sky(p, radiance);
+  ASSERT_EQ(sky.size(), 33u * 33 * 6 * 4);
+  // Between points 5.6 degrees apart at most 11.2, a linear function of directions is bent by its angle's square over 8.
+  constexpr double bent = 0.7 * 0.195 * 0.195 / 8;
+  Values first;
+  for (const std::string& device : test_devices()) {
+    auto made = ConeScene::make(test_context(device), p, empty);
+    ASSERT_TRUE(made) << made.status().message();
+    ASSERT_TRUE(made.value().receive(receivers, views));
+    ASSERT_TRUE(made.value().shine(sky));
+    for (const int cones : {6, 25}) {
+      p.cones = cone_set(cones).value();
+      // The set's own aperture is a level; else between two, of which the cosine is blended: less than 1/50 off.
+      for (const double widest : {2 * p.cones[0].aperture, 1.2 * p.cones[0].aperture}) {
+        p.sky_aperture = widest;
+        ASSERT_TRUE(made.value().shine(cone_sky(p, radiance)));
+        const Status traced = made.value().trace(p);
+        ASSERT_TRUE(traced) << traced.message();
+        const Values e = made.value().read("irradiance").value(), g = made.value().read("specular").value();
+        const double blended = widest == 2 * p.cones[0].aperture ? 0 : 0.02;
+        for (int i = 0; i < p.width; ++i) {
+          double n[3], length = std::hypot(receivers[i * 8 + 4], receivers[i * 8 + 5], receivers[i * 8 + 6]);
+          for (int c = 0; c < 3; ++c) n[c] = receivers[i * 8 + 4 + c] / length;
+          const double cosine = std::cos(specular_aperture(receivers[i * 8 + 3]) / 2);
+          const double cap = specular_aperture(receivers[i * 8 + 3]) > widest ? -1 : (1 + cosine) / 2;
+          const double part[3] = {0.5 * n[0] - 0.2 * n[2], -0.7 * n[1], 0};
+          for (int c = 0; c < 3; ++c) {
+            const double whole = c == 2 ? 2 : 1, scale = p.environment[c];
+            EXPECT_NEAR(e[i * 4 + c], pi * scale * (whole + part[c] * 2 / 3), pi * scale * (bent + blended)) << device;
+            if (cap > 0) {
+              EXPECT_NEAR(g[i * 4 + c], scale * (whole + part[c] * cap), scale * (bent + 0.06)) << device << " " << i;
+            }
+          }
+        }
+        if (device == test_devices().front()) first.insert(first.end(), e.begin(), e.end());
+        if (device == test_devices().front()) first.insert(first.end(), g.begin(), g.end());
+      }
+    }
+  }
+  for (const std::string& device : test_devices()) {
+    auto made = ConeScene::make(test_context(device), p, empty);
+    ASSERT_TRUE(made.value().receive(receivers, views));
+    ASSERT_TRUE(made.value().shine(cone_sky(p, radiance)));
+    ASSERT_TRUE(made.value().trace(p));
+    const Values g = made.value().read("specular").value();
+    EXPECT_TRUE(std::equal(g.begin(), g.end(), first.end() - static_cast<std::ptrdiff_t>(g.size()))) << device;
+  }
 }
 
 // A cone that ends early owes at most the error that was asked for.

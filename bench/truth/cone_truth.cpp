@@ -57,9 +57,10 @@ Place place_of(const ConeTraceParams& p, std::span<const double> r) {
 
 double reach_of(const ConeTraceParams& p) { return p.max_distance > 0 ? p.max_distance / p.voxel : 1e300; }
 
-std::array<double, 4> with_environment(const ConeTraceParams& p, const Seen& s) {
+std::array<double, 4> with_environment(const ConeTraceParams& p, const Seen& s, const Vec& d, const Radiance& sky) {
+  const Vec behind = sky ? sky(d) : Vec{1, 1, 1};
   std::array<double, 4> v;
-  for (int c = 0; c < 3; ++c) v[c] = s.radiance[c] + s.transmittance * p.environment[c];
+  for (std::size_t c = 0; c < 3; ++c) v[c] = s.radiance[c] + s.transmittance * p.environment[c] * behind[c];
   v[3] = s.occlusion;
   return v;
 }
@@ -131,7 +132,7 @@ Seen see(const Voxels& voxels, const Vec& p, const Vec& d, double start, double 
 }
 
 std::vector<double> irradiance(const ConeTraceParams& p, const Voxels& voxels, std::span<const double> receivers,
-                               int rays, std::vector<double>* halves) {
+                               int rays, std::vector<double>* halves, const Radiance& sky) {
   const std::size_t count = receivers.size() / 8;
   std::vector<double> result(count * 4);
   if (halves) halves->assign(2 * count * 4, 0);
@@ -147,7 +148,8 @@ std::vector<double> irradiance(const ConeTraceParams& p, const Voxels& voxels, s
         const double u = (k + (h == 0 ? 0.25 : 0.75)) / each;
         const double turn = radical_inverse(static_cast<std::uint32_t>(k)) + (h == 0 ? 0 : 0.6180339887498949);
         const Vec d = tilted(f, place.normal, std::sqrt(1 - u), 2 * pi * turn);
-        const auto v = with_environment(p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel));
+        const auto v = with_environment(
+            p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel), d, sky);
         for (int c = 0; c < 4; ++c) sums[h][c] += v[c];
       }
     for (int c = 0; c < 4; ++c) {
@@ -170,7 +172,8 @@ std::array<double, 4> cap(const ConeTraceParams& p, const Voxels& voxels, const 
   for (int k = 0; k < rays; ++k) {
     const double cosine = 1 - (1 - std::cos(aperture / 2)) * (k + 0.5) / rays;
     const Vec d = tilted(f, axis, cosine, 2 * pi * radical_inverse(static_cast<std::uint32_t>(k)));
-    const auto v = with_environment(p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel));
+    const auto v =
+        with_environment(p, see(voxels, place.position, d, p.start, reach_of(p), p.gamma * p.voxel), d, {});
     for (int c = 0; c < 4; ++c) sum[c] += v[c] / rays;
   }
   sum[3] = 1 - sum[3];

@@ -1,6 +1,7 @@
 // cone_trace: diffuse irradiance, ambient occlusion and glossy radiance gathered by cones from a pyramid of voxels
 // (Crassin et al., Interactive Indirect Illumination Using Voxel Cone Tracing, 2011).
 #pragma once
+#include <functional>
 #include <vector>
 
 #include <luxel/plan.h>
@@ -81,8 +82,15 @@ struct ConeTraceParams {
   double normal_offset = 1;          // cones start this many voxels above the surface, 0..64
   double start = 0;                  // and gather from here on, voxels along the axis, 0..64
   double max_distance = 0;           // up to here, scene units along the axis; 0: until they leave the volume
+  bool rotate = false;               // the cones are turned about the normal, by one of 64 angles: a hash of `seed` and the
+  int seed = 0;                      // receiver's index (of its tile's first, with a pattern); 0..2147483647
   double gamma = 0;                  // occlusion at distance r counts 1 / (1 + gamma r), per scene unit, >= 0
-  std::array<double, 3> environment{0, 0, 0};  // radiance where a cone ends without being blocked
+  std::array<double, 3> environment{0, 0, 0};  // radiance where a cone ends without being blocked; with a sky its factor
+  int sky_size = 0;                  // 0: the environment is the same everywhere; else there is a sky, of levels of so many
+                                     // points squared, 2..1024
+  int sky_levels = 8;                // of the sky, 1..16
+  double sky_aperture = 2.0943951023931953;  // full angle, radians, of the caps of its first level, 0.01..2.6; each
+                                     // further one has half of it. Cones of these angles see it exact, others a blend
   double error = 0;                  // a cone ends once what is left cannot add more than this radiance, >= 0; the
   double radiance_max = 1;           // largest radiance of volume and environment, > 0
   int max_steps = 0;                 // of a cone, 0: as many as the longest may need
@@ -113,6 +121,7 @@ constexpr int cone_outcomes = 9;
 /// - `coarse` (levels > 1): all further levels in one buffer, at cone_trace_level_offset(); or one 3-D image of
 ///   cone_trace_atlas_extent(), each level at cone_trace_atlas_offset();
 /// - `clipmap` (a clipmap, in place of both): all levels one after the other, voxel v of a level's world at v mod extent;
+/// - `sky` (sky_size > 0): sky_levels * sky_size^2 vec4, as cone_sky makes them;
 /// - `receivers`: two vec4 each: position (scene units) and roughness; normal (any length) and 0. f32x4;
 /// - `views` (specular): a vec4 each, the direction to the eye, any length;
 /// - `irradiance` (written; radiance or occlusion): a vec4 each: irradiance, and visibility 0..1 (1 - occlusion). What is
@@ -139,6 +148,14 @@ std::size_t cone_trace_coarse_texels(const ConeTraceParams& params);
 /// The same for the image of all coarse levels: side by side along x, directions one behind the other along z.
 std::array<int, 3> cone_trace_atlas_offset(const ConeTraceParams& params, int level, int direction = 0);
 std::array<int, 3> cone_trace_atlas_extent(const ConeTraceParams& params);
+
+/// The resource `sky`: for each level, the mean of `radiance` (of unit directions) over caps, at the points of an octahedral
+/// map (Cigolle et al. 2014): point i of row j stands at (2 i / (size - 1) - 1, 2 j / (size - 1) - 1), +z in the middle. In
+/// double, by `rays` (1..) directions a cap; 4 floats a point, the fourth 0. Points lie 180 / (size - 1) degrees apart
+/// on the mean: narrower caps than that are blurred between them. `params` must be valid, with a sky.
+std::vector<float> cone_sky(const ConeTraceParams& params,
+                            const std::function<std::array<double, 3>(const std::array<double, 3>&)>& radiance,
+                            int rays = 256);
 
 /// Full angle, radians, of the cone that stands for the GGX lobe of a (perceptual) roughness 0..1: half of the cone's
 /// solid angle and half of the lobe (with its masking, at normal incidence, above the horizon) lie within the same angle

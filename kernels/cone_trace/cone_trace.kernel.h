@@ -179,9 +179,33 @@ FN vec2 levels_at(CTX, vec3 p, float width) {
 #define VOXEL_AT(p) 1.0f
 #endif
 
+// One level of the sky: the mean radiance over a cap around each direction, at points of an octahedral map that reach
+// its edges, so that a look-up never crosses one.
+FN vec3 sky_at(CTX, vec2 at, int level) {
+    const int n = params.sky_size;
+    const int x = min(int(at.x), n - 2);
+    const int y = min(int(at.y), n - 2);
+    const int i = (level * n + y) * n + x;
+    const vec4 v = blend(blend(load(sky, i), load(sky, i + 1), at.x - float(x)),
+                         blend(load(sky, i + n), load(sky, i + n + 1), at.x - float(x)), at.y - float(y));
+    return vec3(v.x, v.y, v.z);
+}
+FN vec3 environment(CTX, vec3 d, float level) {
+    const vec3 whole = vec3(params.environment_r, params.environment_g, params.environment_b);
+    if (SKY == 0) return whole;
+    const float half_size = 0.5f * float(params.sky_size - 1);
+    const vec2 place = octahedral(d);
+    const vec2 at = vec2(half_size * (place.x + 1.0f), half_size * (place.y + 1.0f));
+    const int below = int(level);
+    vec3 v = sky_at(ctx, at, below);
+    const float f = level - float(below);
+    if (f > 0.0f) v = v + f * (sky_at(ctx, at, below + 1) - v);
+    return whole * v;
+}
+
 // Radiance (with what the environment adds) and occlusion seen along d from p, in finest voxels. `width`: of the voxels
 // that are looked up; those of a level are `size` = 2^level wide.
-FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
+FN vec4 cone(CTX, vec3 p, vec3 d, float spread, float sky_level) {
     const ivec3 n = finest(ctx);
     const vec3 from = p - LOWEST;
     vec2 range = within(vec2(params.start * VOXEL_AT(p), params.reach), from.x, d.x, OUTERMOST * float(n.x));
@@ -290,9 +314,8 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread) {
     COUNTED(CONES)
     COUNTED(span <= 0.0f ? MISSED : 1.0f - sum.w <= params.stop ? OPAQUE : t < span ? CAPPED
             : range.y < params.reach ? LEFT : REACHED)
-    const float through = 1.0f - sum.w;
-    const vec4 seen = vec4(sum.x + through * params.environment_r, sum.y + through * params.environment_g,
-                           sum.z + through * params.environment_b, OCCLUSION > 1 ? occlusion : sum.w);
+    const vec3 beyond = (1.0f - sum.w) * environment(ctx, d, sky_level);
+    const vec4 seen = vec4(sum.x + beyond.x, sum.y + beyond.y, sum.z + beyond.z, OCCLUSION > 1 ? occlusion : sum.w);
     if (finite(seen)) return seen;
     COUNTED(NOT_FINITE)
     return vec4(0.0f);
@@ -327,32 +350,42 @@ FN vec3 place_of(CTX, int i, vec3 n) {
 }
 
 #if SPECULAR
-// Mirror direction of the view; the cone's spread follows the roughness (table of 65 values over 0..1).
-FN float spread_of(CTX, float roughness) {
+// Mirror direction of the view; the cone's spread, and the level of the sky, follow the roughness (tables of 65 values over
+// 0..1).
+FN float by_roughness(CTX, int first, float roughness) {
     const float r = 64.0f * clamp(roughness, 0.0f, 1.0f);
-    const int i = min(int(r), 63);
-    return table(spreads, i) + (r - float(i)) * (table(spreads, i + 1) - table(spreads, i));
+    const int i = first + min(int(r), 63);
+    return table(spreads, i) + (r - float(i - first)) * (table(spreads, i + 1) - table(spreads, i));
 }
 FN vec4 received(CTX, int i, vec3 p, vec3 n) {
     const vec4 to_eye = load(views, i);
     const vec3 v = unit(vec3(to_eye.x, to_eye.y, to_eye.z));
     if (v.x == 0.0f && v.y == 0.0f && v.z == 0.0f) return vec4(0.0f);
     const float twice = 2.0f * (n.x * v.x + n.y * v.y + n.z * v.z);
-    const vec4 seen = cone(ctx, p, unit(twice * n - v), spread_of(ctx, load(receivers, 2 * i).w));
+    const float roughness = load(receivers, 2 * i).w;
+    const float level = SKY != 0 ? by_roughness(ctx, 68, roughness) : 0.0f;
+    const vec4 seen = cone(ctx, p, unit(twice * n - v), by_roughness(ctx, 0, roughness), level);
     return vec4(seen.x, seen.y, seen.z, 1.0f - seen.w);
 }
 #else
 // Irradiance and visibility: the mean over the cones, or over those that the pattern deals to this receiver.
 FN vec4 received(CTX, int i, vec3 p, vec3 n) {
-    const vec3 a = tangent_of(n);
-    const vec3 b = vec3(n.y * a.z - n.z * a.y, n.z * a.x - n.x * a.z, n.x * a.y - n.y * a.x);
+    vec3 a = tangent_of(n);
+    vec3 b = vec3(n.y * a.z - n.z * a.y, n.z * a.x - n.x * a.z, n.x * a.y - n.y * a.x);
+    if (ROTATE != 0) {  // one of 64 turns about the normal; those of a pattern's tile turn together
+        const int tile = i - i % params.width % params.pattern_x - params.width * (i / params.width % params.pattern_y);
+        const int turn = 8 * int(hash(uint(tile) + hash(uint(params.seed))) >> 26);
+        const vec3 turned = table(cones, turn + 6) * a + table(cones, turn + 7) * b;
+        b = table(cones, turn + 6) * b - table(cones, turn + 7) * a;
+        a = turned;
+    }
     const int parts = params.pattern_x * params.pattern_y;
     const int dealt = i % params.width % params.pattern_x + params.pattern_x * (i / params.width % params.pattern_y);
     vec4 sum = vec4(0.0f);
     for (int c = dealt; c < params.cones; c += parts) {
         const vec3 tilted = vec3(table(cones, 8 * c), table(cones, 8 * c + 1), table(cones, 8 * c + 2));
         const vec3 d = tilted.x * a + tilted.y * b + tilted.z * n;
-        sum = sum + table(cones, 8 * c + 3) * cone(ctx, p, d, table(cones, 8 * c + 4));
+        sum = sum + table(cones, 8 * c + 3) * cone(ctx, p, d, table(cones, 8 * c + 4), table(cones, 8 * c + 5));
     }
     sum = float(parts) * sum;
     const float pi = RADIANCE != 0 ? 3.14159265358979f : 0.0f;

@@ -1,5 +1,5 @@
 /* BUILD
-   math: opacity extinction torus
+   math: opacity extinction torus octahedral hash
    module f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=0
    module count_f32x4: KIND=READ PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=1
    module texels_f32x4: KIND=TEXELS PIXEL=f32x4 SAMPLED=0 SPECULAR=0 COUNT=0
@@ -58,18 +58,22 @@
     _(int, step_cap) \
     _(float, stop)          /* a cone ends where no more than this part of light passes */ \
     _(float, gamma)         /* occluders at distance r count 1 / (1 + gamma r) */ \
-    _(float, environment_r) /* radiance beyond the volume, and beyond reach */ \
+    _(float, environment_r) /* radiance beyond the volume, and beyond reach; of the sky, where there is one, a factor */ \
     _(float, environment_g) \
     _(float, environment_b) \
     _(int, cones) \
     _(int, pattern_x)       /* the cones are dealt to this many neighbouring receivers of a row, and rows of them */ \
-    _(int, pattern_y)
+    _(int, pattern_y) \
+    _(int, seed)            /* of the turns */ \
+    _(int, sky_size)        /* points along a side of a level of the sky */
 #define CONSTANTS(_) \
     _(0, int, ANISOTROPIC, 0)  /* 1: coarse levels are six directional volumes */ \
     _(1, int, RADIANCE, 1)     /* 0: only occlusion is wanted */ \
     _(2, int, OCCLUSION, 1)    /* 0: only radiance is wanted; 1: gamma is 0; 2: it is not */ \
     _(3, int, SKIP_EMPTY, 0)   /* 1: where the coarser of two levels is empty, the finer is not read */ \
-    _(10, int, OWN_LENGTH, 1)  /* clipmap: opacity is per voxel of the level; 0: of the finest */
+    _(10, int, OWN_LENGTH, 1)  /* clipmap: opacity is per voxel of the level; 0: of the finest */ \
+    _(4, int, ROTATE, 0)       /* 1: cones are turned about the normal, at random */ \
+    _(5, int, SKY, 0)          /* 1: the environment is a sky */
 #if COUNT
 #define COUNTERS(_) _(UPDATE, 6, uint, counters)
 #else
@@ -86,7 +90,7 @@
 #if SPECULAR
 #define GATHERED specular
 #define RECEIVED(_) \
-    _(UNIFORM, 3, 68, spreads) \
+    _(UNIFORM, 3, 136, spreads) \
     _(READ, 4, vec4, views) \
     _(WRITE, 5, vec4, specular)
 #else
@@ -99,6 +103,7 @@
     _(KIND, 0, PIXEL, fine) \
     _(KIND, 1, PIXEL, coarse) \
     _(READ, 2, vec4, receivers) \
+    _(READ, 7, vec4, sky) \
     RECEIVED(_) \
     WINDOWED(_) \
     COUNTERS(_)

@@ -58,7 +58,9 @@ bool same(const ConeTraceParams& a, const ConeTraceParams& b) {
          a.variant == b.variant && a.format == b.format && a.input == b.input && a.origin == b.origin &&
          a.voxel == b.voxel && a.pattern_x == b.pattern_x && a.pattern_y == b.pattern_y &&
          a.footprint == b.footprint && a.specular_footprint == b.specular_footprint && a.step_scale == b.step_scale && a.normal_offset == b.normal_offset && a.start == b.start &&
-         a.max_distance == b.max_distance && a.gamma == b.gamma && a.environment == b.environment &&
+         a.max_distance == b.max_distance &&
+         a.rotate == b.rotate && a.seed == b.seed && a.sky_size == b.sky_size && a.sky_levels == b.sky_levels &&
+         a.sky_aperture == b.sky_aperture && a.gamma == b.gamma && a.environment == b.environment &&
          a.error == b.error && a.radiance_max == b.radiance_max && a.max_steps == b.max_steps &&
          a.radiance == b.radiance && a.occlusion == b.occlusion && a.specular == b.specular &&
          a.skip_empty == b.skip_empty && a.count == b.count &&
@@ -148,6 +150,14 @@ Status ConeScene::receive(std::span<const double> receivers, std::span<const dou
   return {};
 }
 
+Status ConeScene::shine(const std::vector<float>& sky) {
+  std::erase_if(held_, [](const Held& h) { return h.resource.name == "sky"; });
+  const Values values(sky.begin(), sky.end());
+  Result<Held> r = hold(buffer("sky", Format::f32x4, values.size() / 4), values);
+  if (r) held_.push_back(r.value());
+  return r.status();
+}
+
 Status ConeScene::trace(const ConeTraceParams& p, int repeat, Times* times) {
   if (!has_program_ || !same(p, compiled_)) {
     const Result<Plan> made = plan(p, context_->profile());
@@ -169,6 +179,7 @@ Status ConeScene::trace(const ConeTraceParams& p, int repeat, Times* times) {
   for (const Held& h : held_) {
     if (h.resource.name == "coarse" && cone_trace_levels(p) == 1) continue;
     if (h.resource.name == "views" && !p.specular) continue;
+    if (h.resource.name == "sky" && p.sky_size == 0) continue;
     named.push_back({h.resource.name, h.memory});
   }
   for (const Held& h : made_) {

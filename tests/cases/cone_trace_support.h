@@ -23,6 +23,9 @@ class ConeScene {
   /// Sets the receivers ([n][8]; n = width * height of the params that are traced) and, for specular, views ([n][4]).
   Status receive(std::span<const double> receivers, std::span<const double> views = {});
 
+  /// Sets the sky, as cone_sky makes it.
+  Status shine(const std::vector<float>& sky);
+
   /// Traces. The params must have the volume that the scene was made with.
   Status trace(const ConeTraceParams& params, int repeat = 1, Times* times = nullptr);
   /// `irradiance`, `specular` ([n][4]) or `counters` of the last trace.
