@@ -298,7 +298,7 @@ void add_render(CLI::App& app, int& exit_status) {
       ->check(within(0, 1e9, false));
   command
       ->add_option("--ao-distance", a->ao_distance,
-                   "of truth: surfaces beyond it do not occlude, 1e-9..1e9 scene units; default: all occlude")
+                   "surfaces beyond it do not occlude, 1e-9..1e9 scene units; default: all occlude")
       ->type_name("NUMBER")
       ->check(within(1e-9, 1e9, false));
   command->add_option("--samples", a->samples, "of truth: paths of each of its two halves, 1..1048576; default 64")

@@ -18,7 +18,7 @@ struct RenderInput {
   const scene::Rays& rays;
   const scene::GBuffer& gbuffer;
   std::string device;             // as --device names it; empty: the first that works
-  truth::PathSettings settings;   // ambient occlusion's falloff holds for every method, its reach for truth
+  truth::PathSettings settings;   // ambient occlusion's falloff and reach hold for every method
   scene::VoxelSceneSettings voxels;
   ConeTraceParams cones;          // how they are traced; volumes and receivers are the method's own
 };

@@ -59,7 +59,9 @@ Result<RenderOutput> render_cone(const RenderInput& input) {
   if (!context) return context.status();
   if (context.value()->real64())
     return Status(Code::invalid_argument, "--method cone: the device cpu:double is not taken; expected another");
-  auto built = scene::VoxelScene::build(context.value(), input.scene, input.voxels);
+  scene::VoxelSceneSettings settings = input.voxels;
+  settings.rays = &input.rays;
+  auto built = scene::VoxelScene::build(context.value(), input.scene, settings);
   if (!built) return built.status();
   scene::VoxelScene& voxels = built.value();
   if (Status s = voxels.light(); !s) return s;
@@ -81,7 +83,8 @@ Result<RenderOutput> render_cone(const RenderInput& input) {
   cones.width = g.width;
   cones.height = g.height;
   cones.gamma = input.settings.ao_falloff;
-  auto traced = voxels.trace(cones, receivers, views);
+  const double reach = input.settings.ao_distance;
+  auto traced = voxels.trace(cones, receivers, views, std::isfinite(reach) ? reach : 0);
   if (!traced) return traced.status();
   const scene::ConeLight& light = traced.value();
 

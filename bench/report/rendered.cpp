@@ -33,6 +33,7 @@ struct RenderSetting {
 // A scene, what its camera sees, and the truth there; made once in a process.
 struct Stage {
   scene::Scene scene;
+  std::optional<scene::Rays> rays;  // through `scene`
   scene::GBuffer seen;
   std::vector<double> t1, t2;  // irradiance after one bounce, 3 a pixel that has a surface
   std::vector<std::size_t> pixels;
@@ -54,6 +55,7 @@ Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
   if (place.camera.fov > 0) stage->scene.camera = place.camera;
   auto rays = scene::Rays::make(stage->scene);
   if (!rays) return rays.status();
+  stage->rays = rays.value();
   stage->seen = scene::gbuffer(rays.value(), stage->scene.camera, quick ? 48 : 96, quick ? 27 : 54);
   truth::PathSettings settings;
   settings.samples = quick ? 256 : 1024;
@@ -119,11 +121,11 @@ Status measure(Session& session, const RenderSetting& s) {
   const Stage& stage = *found.value();
   scene::VoxelSceneSettings settings;
   settings.resolution = s.resolution;
+  settings.rays = &*stage.rays;
   settings.variant = s.anisotropic ? ConeVariant::anisotropic : ConeVariant::isotropic;
   ConeTraceParams cones;
   cones.cones = cone_set(s.cones).value();
   cones.step_scale = s.step;
-  cones.normal_offset = 2;
   cones.occlusion = false;
 
   // The context is the session's; it outlives the scene.

@@ -1,8 +1,10 @@
 #include "bench/scene/voxel_scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
+#include <thread>
 
 #include <luxel/mip_build.h>
 
@@ -40,23 +42,6 @@ std::size_t emitting_triangles(const Scene& scene) {
   for (std::size_t i = 0; i < scene.indices.size(); ++i)
     count += scene.material_of(i).emission != dvec3(0) && finite(scene, i);
   return count;
-}
-
-// Of the whole sphere; rows count by their solid angle.
-dvec3 mean_radiance(const Sky& sky) {
-  if (sky.image.empty()) return sky.radiance;
-  dvec3 sum(0);
-  double weights = 0;
-  for (int r = 0; r < sky.height; ++r) {
-    const double weight = std::sin((r + 0.5) / sky.height * std::numbers::pi);
-    for (int c = 0; c < sky.width; ++c) {
-      const float* texel = &sky.image[3 * (static_cast<std::size_t>(r) * static_cast<std::size_t>(sky.width) +
-                                           static_cast<std::size_t>(c))];
-      sum += weight * dvec3(texel[0], texel[1], texel[2]);
-      weights += weight;
-    }
-  }
-  return sky.radiance * sum / weights;
 }
 
 }  // namespace
@@ -159,6 +144,32 @@ Status VoxelScene::voxelize() {
   return {};
 }
 
+// Depths seen from the sun, in voxels.
+std::vector<float> VoxelScene::shadow_map(const VoxelShadow& shadow) {
+  const dvec3 right(shadow.to_x[0], shadow.to_x[1], shadow.to_x[2]), up(shadow.to_y[0], shadow.to_y[1], shadow.to_y[2]),
+      away(shadow.to_depth[0], shadow.to_depth[1], shadow.to_depth[2]);
+  const dvec3 origin(grid_.origin[0], grid_.origin[1], grid_.origin[2]);
+  const std::size_t width = static_cast<std::size_t>(shadow.width), height = static_cast<std::size_t>(shadow.height);
+  std::vector<float> depths(width * height, 1e30f);
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<std::jthread> threads;
+  const std::size_t count = std::max(1u, std::thread::hardware_concurrency());
+  for (std::size_t t = 0; t < count; ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t y = t; y < height; y += count)
+        for (std::size_t x = 0; x < width; ++x) {
+          const dvec3 p = (static_cast<double>(x) + 0.5 - shadow.to_x[3]) / glm::dot(right, right) * right +
+                          (static_cast<double>(y) + 0.5 - shadow.to_y[3]) / glm::dot(up, up) * up - shadow.to_depth[3] * away;
+          const auto hit = settings_.rays->first(origin + grid_.voxel * p, away);
+          if (hit) depths[y * width + x] = static_cast<float>(hit->distance / grid_.voxel);
+        }
+    });
+  threads.clear();
+  const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+  light_steps_.push_back({"shadow map", passed.count()});
+  return depths;
+}
+
 Status VoxelScene::inject(Pyramid& pyramid, bool emission, const std::vector<VoxelLight>& lights,
                           const std::vector<float>& map, const char* name) {
   VoxelInjectParams p;
@@ -172,6 +183,8 @@ Status VoxelScene::inject(Pyramid& pyramid, bool emission, const std::vector<Vox
   p.lights = static_cast<int>(lights.size());
   p.two_sided = settings_.two_sided;
   p.clear = !pyramid.fine;
+  const bool shadowed = settings_.rays != nullptr && !lights.empty() && lights.front().kind == VoxelLight::Kind::sun;
+  if (shadowed) p.shadow = voxel_shadow({p.width, p.height, p.depth}, lights.front().place, settings_.shadow_texels);
   if (!map.empty()) {
     p.map_width = 1024;
     p.map_height = static_cast<int>(map.size() / 8 / 1024);
@@ -183,15 +196,16 @@ Status VoxelScene::inject(Pyramid& pyramid, bool emission, const std::vector<Vox
   if (!plan) return plan.status();
   std::vector<Named> named{{"colour", colour_}, {"bricks", brick_list_}, {"voxel_counters", counters_}};
   const std::vector<float> list = voxel_lights(lights, grid_.origin, grid_.voxel);
+  const std::vector<float> depths = shadowed ? shadow_map(p.shadow) : std::vector<float>();
   for (const Resource& r : plan.value().resources) {
     if (r.name == "normal") named.push_back({r.name, normal_});
     if (r.name == "emission") named.push_back({r.name, emitted_});
-    if (r.name != "lights" && r.name != "map") continue;
-    const std::vector<float>& values = r.name == "lights" ? list : map;
-    auto memory =
-        make(Format::f32x4, std::max<std::size_t>(values.size() / 4, 3), values.empty() ? nullptr : values.data());
+    if (r.name != "lights" && r.name != "map" && r.name != "shadow") continue;
+    const std::size_t before = bytes_;
+    const std::vector<float>& values = r.name == "lights" ? list : r.name == "map" ? map : depths;
+    auto memory = make(r.format, r.bytes / bytes_per_pixel(r.format), values.empty() ? nullptr : values.data());
     if (!memory) return memory.status();
-    bytes_ -= std::max<std::size_t>(values.size() * 4, 48);  // they go with this step
+    bytes_ = before;  // they go with this step
     named.push_back({r.name, memory.value()});
   }
   if (!pyramid.fine) {
@@ -320,6 +334,7 @@ Result<std::vector<float>> VoxelScene::cones(const ConeTraceParams& params, cons
     specular = made.value();
     named.insert(named.end(), {{"views", eyes.value()}, {"specular", specular}});
   }
+  if (p.sky_size > 0) named.push_back({"sky", sky_});
   if (Status s = run(plan.value(), named, name, steps); !s) return s;
   bytes_ = before;
   std::vector<float> values(room * 4);
@@ -332,6 +347,31 @@ Result<std::vector<float>> VoxelScene::cones(const ConeTraceParams& params, cons
     glossy->resize(count * 4);
   }
   return values;
+}
+
+// What cones that leave the volume see. An image is averaged over caps as wide as theirs.
+Status VoxelScene::see_sky(ConeTraceParams& p) {
+  const Sky& sky = scene_.sky;
+  if (sky.image.empty()) {
+    p.environment = array_of(sky.radiance);
+    return {};
+  }
+  p.environment = {1, 1, 1};
+  p.sky_size = 33;
+  p.sky_levels = 6;
+  p.sky_aperture = std::min(2.6, 2 * p.cones.front().aperture);
+  if (sky_ && sky_aperture_ == p.sky_aperture) return {};
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<float> texels = cone_sky(
+      p, [&](const std::array<double, 3>& d) { return array_of(sky.toward({d[0], d[1], d[2]})); }, 1024);
+  auto made = make(Format::f32x4, texels.size() / 4, texels.data());
+  if (!made) return made.status();
+  if (sky_) bytes_ -= texels.size() * 4;
+  sky_ = made.value();
+  sky_aperture_ = p.sky_aperture;
+  const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+  light_steps_.push_back({"sky", passed.count()});
+  return {};
 }
 
 Status VoxelScene::light() {
@@ -352,7 +392,7 @@ Status VoxelScene::light() {
     if (!receivers) return receivers.status();
     ConeTraceParams p;
     p.cones = cone_set(settings_.voxel_cones).value();
-    p.environment = array_of(mean_radiance(scene_.sky));
+    if (Status s = see_sky(p); !s) return s;
     p.occlusion = false;
     p.normal_offset = 2;
     auto arrived = cones(p, own_, receivers.value(), {}, nullptr, "cone_trace voxels", light_steps_);
@@ -373,23 +413,24 @@ Status VoxelScene::light() {
 }
 
 Result<ConeLight> VoxelScene::trace(const ConeTraceParams& params, const std::vector<float>& receivers,
-                                    const std::vector<float>& views) {
+                                    const std::vector<float>& views, double occlusion_reach) {
   shade_steps_.clear();
   ConeLight light;
   const bool glossy = !views.empty();
   std::vector<float> mirrored;
+  const bool near = params.occlusion && occlusion_reach > 0;  // then occlusion has cones of its own
   if (own_.fine && (gathered_ || glossy)) {
     ConeTraceParams p = params;
-    p.environment = array_of(mean_radiance(scene_.sky));
+    if (Status s = see_sky(p); !s) return s;
     p.radiance = gathered_;
-    p.occlusion = gathered_ && params.occlusion;
+    p.occlusion = gathered_ && params.occlusion && !near;
     auto direct =
         cones(p, own_, receivers, views, glossy ? &light.glossy : nullptr, "cone_trace emission", shade_steps_);
     if (!direct) return direct.status();
     if (gathered_) light.direct = std::move(direct).value();
   }
   ConeTraceParams p = params;
-  p.occlusion = !gathered_ && params.occlusion;
+  p.occlusion = !gathered_ && params.occlusion && !near;
   auto indirect = cones(p, reflected_, receivers, views, glossy ? &mirrored : nullptr, "cone_trace", shade_steps_);
   if (!indirect) return indirect.status();
   light.indirect = std::move(indirect).value();
@@ -398,8 +439,18 @@ Result<ConeLight> VoxelScene::trace(const ConeTraceParams& params, const std::ve
   else
     for (std::size_t i = 0; i < mirrored.size(); ++i)
       if (i % 4 < 3) light.glossy[i] += mirrored[i];
-  if (gathered_)
-    for (std::size_t i = 3; i < light.indirect.size(); i += 4) light.indirect[i] = light.direct[i];
+  std::vector<float> occluded;
+  if (near) {
+    p.occlusion = true;
+    p.radiance = false;
+    p.max_distance = occlusion_reach;
+    auto made = cones(p, reflected_, receivers, {}, nullptr, "cone_trace occlusion", shade_steps_);
+    if (!made) return made.status();
+    occluded = std::move(made).value();
+  }
+  const std::vector<float>& visible = near ? occluded : light.direct;
+  if (near || gathered_)
+    for (std::size_t i = 3; i < light.indirect.size(); i += 4) light.indirect[i] = visible[i];
   return light;
 }
 

@@ -10,6 +10,7 @@
 #include <luxel/voxel_inject.h>
 #include <luxel/voxelize.h>
 
+#include "bench/scene/rays.h"
 #include "bench/scene/voxels.h"
 
 namespace luxel::scene {
@@ -23,6 +24,9 @@ struct VoxelSceneSettings {
   Format format = Format::f16x4;  // of every volume
   VoxelizeMode mode = VoxelizeMode::conservative;
   ConeVariant variant = ConeVariant::isotropic;
+  const Rays* rays = nullptr;  // where given, the sun casts its shadows by a map, which these rays make (an engine has
+                               // rasterized it); else by rays through the voxels. Must outlive the voxels
+  double shadow_texels = 3;    // of that map in a voxel, along each side, 1..8
   bool textures = true;  // base-colour textures are sampled in the voxels; false: their mean
   bool two_sided = false;    // true: both sides of every surface are lit alike, and show light on their backs
   int lamp_pieces = 64;  // emitting triangles are lights of about so many pieces where they are no more than these and
@@ -58,9 +62,9 @@ class VoxelScene {
   const std::vector<VoxelLight>& lights() const { return lights_; }
 
   /// Traces. `cones`: cone set, step and so on; volumes, extents and environment are filled in. `views` (a vec4 each) may be
-  /// empty: then nothing is glossy.
+  /// empty: then nothing is glossy. `occlusion_reach`: surfaces beyond it do not occlude, scene units; 0: all do.
   Result<ConeLight> trace(const ConeTraceParams& cones, const std::vector<float>& receivers,
-                          const std::vector<float>& views);
+                          const std::vector<float>& views, double occlusion_reach = 0);
 
   const VoxelGrid& grid() const { return grid_; }
   /// Triangles skipped for a vertex that is no finite number.
@@ -85,12 +89,14 @@ class VoxelScene {
   Status inject(Pyramid& pyramid, bool emission, const std::vector<VoxelLight>& lights, const std::vector<float>& map,
                 const char* name);
   Status mip(Pyramid& pyramid, const char* name);
+  std::vector<float> shadow_map(const VoxelShadow& shadow);
   Result<std::vector<float>> cones(const ConeTraceParams& params, const Pyramid& pyramid,
                                    const std::vector<float>& receivers, const std::vector<float>& views,
                                    std::vector<float>* glossy, const char* name, std::vector<VoxelStep>& steps);
   Status run(const Plan& plan, const std::vector<Named>& resources, const char* name, std::vector<VoxelStep>& steps);
   Result<std::shared_ptr<Memory>> make(Format format, std::size_t count, const void* data = nullptr);
   ConeTraceParams shape() const;
+  Status see_sky(ConeTraceParams& params);
   Result<std::vector<float>> voxel_receivers(std::vector<float>& places);
 
   std::shared_ptr<Context> context_;
@@ -102,6 +108,8 @@ class VoxelScene {
   bool emission_ = false;
   int bricks_ = 0;
   std::size_t bytes_ = 0;
+  std::shared_ptr<Memory> sky_;  // for cones of this aperture
+  double sky_aperture_ = 0;
   std::shared_ptr<Memory> colour_, normal_, emitted_, brick_list_, counters_;
   Pyramid own_, reflected_;  // what surfaces emit (and the sky behind them), and what they reflect
   bool gathered_ = false;    // whether cones gather direct light: of the sky, or of emitters that are no lamps
