@@ -111,6 +111,7 @@ Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.height", p.height, 1, 2048));
   LUXEL_CHECK(check_range("VoxelizeParams.depth", p.depth, 1, 2048));
   if (p.toroidal) LUXEL_CHECK(check_window(p));
+  if (p.over && p.toroidal) return out_of_range("VoxelizeParams.over", "true", "false with toroidal");
   const int extent[] = {p.width, p.height, p.depth};
   for (std::size_t k = 0; k < 3; ++k) {
     LUXEL_CHECK(check_range("VoxelizeParams.first", p.first[k], 0, extent[k] - 1));
@@ -191,6 +192,13 @@ class Voxelization {
     colour_ = resource("colour", p_.format, voxels, true);
     if (p_.normal) normal_ = resource("normal", p_.format, voxels, true);
     if (p_.emission) emission_ = resource("emission", p_.format, voxels, true);
+    if (p_.over) {
+      under_[0] = resource("under_colour", p_.format, voxels, false);
+      if (p_.normal) under_[1] = resource("under_normal", p_.format, voxels, false);
+      if (p_.emission) under_[2] = resource("under_emission", p_.format, voxels, false);
+      left_ = resource("left_bricks", Format::u32, static_cast<std::size_t>(room_.bricks), false);
+      left_counters_ = resource("left_counters", Format::u32, counter_words, false);
+    }
     list_ = resource("bricks", Format::u32, static_cast<std::size_t>(room_.bricks), true);
     if (p_.fragments > 0)
       fragments_ = resource("fragments", Format::u32, static_cast<std::size_t>(p_.fragments) * 4, true);
@@ -200,6 +208,11 @@ class Voxelization {
     pieces_ = planner_.scratch(Format::u32, static_cast<std::size_t>(room_.pieces) * 2);
     sums_ = planner_.scratch(Format::u32, sums);
     carries_ = planner_.scratch(Format::u32, exact ? sums : 1);
+    if (p_.over) {
+      restore(under_[0], colour_);
+      if (p_.normal) restore(under_[1], normal_);
+      if (p_.emission) restore(under_[2], emission_);
+    }
     clear();
     if (p_.device_vertices) round();
     refine();
@@ -216,6 +229,18 @@ class Voxelization {
     r.bytes = std::max<std::size_t>(count, 1) * bytes_per_pixel(format);
     r.written = written;
     return planner_.resource(r);
+  }
+
+  void restore(Slot under, Slot dst) {
+    const auto rows = launch(std::int64_t{room_.bricks} * brick * brick);
+    planner_.pass("voxelize_restore", name(p_.format), "voxelize restore", rows, line,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"depth", p_.depth},
+                   {"capacity", room_.bricks},
+                   {"stride", stride(rows)}},
+                  {}, {{"left_bricks", left_}, {"left_counters", left_counters_}, {"under", under}, {"dst", dst}});
+    planner_.cost(0, 2.0 * room_.bricks * brick_voxels * static_cast<double>(bytes_per_pixel(p_.format)));
   }
 
   void clear() {
@@ -342,9 +367,13 @@ class Voxelization {
     std::array<std::uint32_t, 3> invocations{static_cast<std::uint32_t>(last[0] / brick - p_.first[0] / brick + 1),
                                              static_cast<std::uint32_t>(last[1] - p_.first[1] + 1),
                                              static_cast<std::uint32_t>(last[2] - p_.first[2] + 1)};
-    if (p_.touched_only) invocations = launch(std::int64_t{room_.bricks} * brick * brick);
-    planner_.pass("voxelize_resolve", name(p_.format), labels[of], invocations,
-                  p_.touched_only ? line : profile_.voxels.workgroup,
+    const bool listed = p_.touched_only || p_.over;
+    if (listed) invocations = launch(std::int64_t{room_.bricks} * brick * brick);
+    std::vector<std::pair<std::string_view, Slot>> slots{{"slots", slots_},       {"sums", sums_}, {"carries", carries_},
+                                                         {"counters", counters_}, {"dst", to},     {"brick_list", list_}};
+    if (p_.over) slots.emplace_back("under", under_[of % 3]);
+    planner_.pass("voxelize_resolve", std::string(p_.over ? "over_" : "") + name(p_.format), labels[of], invocations,
+                  listed ? line : profile_.voxels.workgroup,
                   grid_values(p_) + Planner::Values{{"stored_x", stored_[0]},
                                                     {"stored_y", stored_[1]},
                                                     {"stored_z", stored_[2]},
@@ -357,14 +386,8 @@ class Voxelization {
                                                     {"capacity", room_.bricks},
                                                     {"stride", stride(invocations)},
                                                     {"opacity", p_.opacity}},
-                  {{"OF", of}, {"TOUCHED", p_.touched_only}},
-                  {{"slots", slots_},
-                   {"sums", sums_},
-                   {"carries", carries_},
-                   {"counters", counters_},
-                   {"dst", to},
-                   {"brick_list", list_}});
-    if (p_.touched_only) {
+                  {{"OF", of}, {"TOUCHED", listed}}, slots);
+    if (listed) {
       planner_.cost(0, static_cast<double>(room_.bricks) * brick_voxels * static_cast<double>(bytes_per_pixel(p_.format)));
       return;
     }
@@ -389,6 +412,8 @@ class Voxelization {
   Planner planner_;
   Slot positions_, indices_, chosen_, uvs_, textures_, texels_, srgb_;
   Slot triangles_, materials_, colour_, normal_, emission_, list_, fragments_, counters_;
+  std::array<Slot, 3> under_;
+  Slot left_, left_counters_;
   Slot slots_, spans_, pieces_, sums_, carries_;
 };
 

@@ -103,6 +103,8 @@ struct VoxelizeParams {
                                 // window_triangles(). `first` and `last` count from the window's first voxel
   std::array<int, 3> window{0, 0, 0};  // that voxel, voxels from the origin of the triangles' grid, -8192..8192 - extent
   bool touched_only = false;    // volumes are written in touched bricks only; elsewhere they keep what they hold
+  bool over = false;            // an object that moves over static volumes: its voxels replace theirs, and what it left last
+                                // time is restored. Only bricks that it touches or left are written
   VoxelizeMode mode = VoxelizeMode::conservative;
   VoxelizeMerging merging = VoxelizeMerging::exact;
   Format format = Format::f32x4; // of the volumes: f32x4, f16x4, unorm8x4
@@ -149,7 +151,9 @@ enum class VoxelizeCount {
 /// asked for, `counters` (16 u32, see VoxelizeCount). With textures: `uvs` (f32x1), `texture_table` (u32, 8 words for each
 /// material) and `texels` (u32), sampled at the centroid of the triangle's part in the voxel. With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
 /// z of each vertex), `indices` (u32, three a triangle) and `triangle_materials` (u32). Coverage is the opacity's mean, never below a step of unorm8 or of
-/// 2^-14. Errors: invalid_argument, naming field, value and range.
+/// 2^-14. With `over`: read `under_colour` (`under_normal`, `under_emission`: the static volumes), `left_bricks` and
+/// `left_counters`: `bricks` and `counters` of the last time (a third word 0: none), which must be other memory than this
+/// time's; the volumes hold the static ones, or what the last time made of them. Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelizeParams& params);
 
 /// The passes that voxelize with these parameters on a device of this profile.

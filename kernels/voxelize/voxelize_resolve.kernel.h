@@ -1,4 +1,4 @@
-// Means from sums; 0 where nothing is. An invocation makes the eight voxels of a brick's row.
+// Means from sums; where nothing is 0, or what the volume under it has. An invocation makes the eight voxels of a brick's row.
 
 FN float sum_of(CTX, int at) { return float_of_64(uvec2(load(sums, at), load(carries, at))); }
 
@@ -39,6 +39,12 @@ FN void put(CTX, ivec3 p, vec4 v) {
     store_voxel(dst, stored, torus(p + ivec3(params.turn_x, params.turn_y, params.turn_z), stored), v);
 }
 
+#ifdef OVER
+#define NOTHING_AT(p) load_voxel(under, ivec3(params.stored_x, params.stored_y, params.stored_z), p)
+#else
+#define NOTHING_AT(p) vec4(0.0f)
+#endif
+
 // Of row (y, z) of the grid, the voxels that lie in a brick of a slot (0: none) and in the region.
 FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
     const int first_x = max(brick_x * BRICK, params.first_x);
@@ -55,7 +61,7 @@ FN void resolve_row(CTX, int brick_x, int y, int z, uint slot) {
             put(ctx, ivec3(x, y, z), mean_of(ctx, row + x % BRICK));
             ++occupied;
         } else {
-            put(ctx, ivec3(x, y, z), vec4(0.0f));
+            put(ctx, ivec3(x, y, z), NOTHING_AT(ivec3(x, y, z)));
         }
     }
     if ((OF == OF_COLOUR || OF == OF_PACKED) && occupied > 0u) atomic_add(counters, COUNT_OCCUPIED, occupied);

@@ -3,6 +3,9 @@
    module f32x4: PIXEL=f32x4 UNORM=0
    module f16x4: PIXEL=f16x4 UNORM=0
    module unorm8x4: PIXEL=unorm8x4 UNORM=1
+   module over_f32x4: PIXEL=f32x4 UNORM=0 OVER=1
+   module over_f16x4: PIXEL=f16x4 UNORM=0 OVER=1
+   module over_unorm8x4: PIXEL=unorm8x4 UNORM=1 OVER=1
 */
 #define OF_COLOUR 0
 #define OF_NORMAL 1
@@ -33,10 +36,16 @@
 #define CONSTANTS(_) \
     _(0, int, OF, 0) \
     _(1, int, TOUCHED, 0)  /* 1: only bricks of the list are written, in a launch along x that strides over it */
+#ifdef OVER
+#define COVERED(_) _(READ, 6, PIXEL, under)
+#else
+#define COVERED(_)
+#endif
 #define BINDINGS(_) \
     _(READ, 0, uint, slots) \
     _(READ, 1, uint, sums) \
     _(READ, 2, uint, carries) \
     _(UPDATE, 3, uint, counters) \
     _(WRITE, 4, PIXEL, dst) \
-    _(READ, 5, uint, brick_list)
+    _(READ, 5, uint, brick_list) \
+    COVERED(_)
