@@ -8,6 +8,7 @@
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
+#include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
 #include "bench/report/rendered.h"
@@ -64,6 +65,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   if (settings.wants("voxelize")) {
     append(jobs, voxel_jobs(session));
+    append(jobs, update_jobs(session));
+    append(jobs, shadow_map_jobs(session));
     append(jobs, stability_jobs(session, cases::voxelize_cases()));
     append(jobs, stability_jobs(session, cases::voxel_inject_cases()));
   }

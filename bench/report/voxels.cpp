@@ -1,13 +1,13 @@
 #include "bench/report/voxels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "bench/scene/voxels.h"
 #include "bench/truth/voxel_truth.h"
 #include "tests/cases/compare.h"
 #include "tests/cases/storage.h"
@@ -16,18 +16,12 @@
 namespace luxel::report {
 
 VoxelGrid grid_around(const cases::Mesh& mesh, int n) {
-  std::array<double, 3> low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    low[i % 3] = std::min(low[i % 3], mesh.positions[i]);
-    high[i % 3] = std::max(high[i % 3], mesh.positions[i]);
+  scene::Bounds box{glm::dvec3(std::numeric_limits<double>::infinity()), glm::dvec3(-std::numeric_limits<double>::infinity())};
+  for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+    const glm::dvec3 p(mesh.positions[i], mesh.positions[i + 1], mesh.positions[i + 2]);
+    box = {glm::min(box.low, p), glm::max(box.high, p)};
   }
-  const double side = 1.02 * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-  VoxelGrid grid = cases::unit_grid(n);
-  for (std::size_t k = 0; k < 3; ++k) grid.origin[k] = (low[k] + high[k] - side) / 2;
-  grid.voxel = side / n;
-  return grid;
+  return scene::grid_around(box, n);
 }
 
 cases::Mesh bunny_or_ball(std::string& name) {

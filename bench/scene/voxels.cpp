@@ -27,8 +27,9 @@ bool absent(const Material& m) { return m.alpha_mode == AlphaMode::mask && m.tex
 
 }  // namespace
 
-VoxelGrid grid_around(const Scene& scene, int n) {
-  const Bounds box = bounds(scene);
+VoxelGrid grid_around(const Scene& scene, int n) { return grid_around(bounds(scene), n); }
+
+VoxelGrid grid_around(const Bounds& box, int n) {
   const glm::dvec3 size = box.high - box.low;
   double side = 1.02 * std::max({size.x, size.y, size.z});
   if (!(side > 0)) side = 1;
@@ -39,7 +40,7 @@ VoxelGrid grid_around(const Scene& scene, int n) {
   return grid;
 }
 
-Result<SceneVoxels> scene_voxels(const Scene& scene, const VoxelGrid& grid, bool albedo) {
+Result<SceneVoxels> scene_voxels(const Scene& scene, const VoxelGrid& grid, bool albedo, bool windows) {
   SceneVoxels out;
   out.grid = grid;
 
@@ -94,7 +95,7 @@ Result<SceneVoxels> scene_voxels(const Scene& scene, const VoxelGrid& grid, bool
   mesh.triangles = scene.indices.size();
   mesh.materials = scene.triangle_materials.data();
   if (textured) mesh.uvs = uvs.data();
-  Result<VoxelTriangles> triangles = voxel_triangles(mesh, grid);
+  Result<VoxelTriangles> triangles = windows ? window_triangles(mesh, grid) : voxel_triangles(mesh, grid);
   if (!triangles) return triangles.status();
   out.triangles = std::move(triangles).value();
   out.triangles.bad_index -= removed;

@@ -8,7 +8,8 @@
 
 namespace luxel::scene {
 
-/// The bounding cube of a scene in n^3 voxels: centred, padded by 1 % of its side at each end.
+/// A bounding cube in n^3 voxels: centred, padded by 1 % of its side at each end.
+VoxelGrid grid_around(const Bounds& box, int n);
 VoxelGrid grid_around(const Scene& scene, int n);
 
 struct SceneVoxels {
@@ -19,8 +20,9 @@ struct SceneVoxels {
   VoxelizeParams params;         // extents, capacities and what the materials need: opacity, emission, textures
 };
 
-/// `albedo`: colours are diffuse reflectance (base colour times 1 - metallic), else base colour.
+/// `albedo`: colours are diffuse reflectance (base colour times 1 - metallic), else base colour. `windows`: triangles for
+/// windows that move (window_triangles).
 /// Errors: those of voxel_triangles and voxel_textures.
-Result<SceneVoxels> scene_voxels(const Scene& scene, const VoxelGrid& grid, bool albedo = false);
+Result<SceneVoxels> scene_voxels(const Scene& scene, const VoxelGrid& grid, bool albedo = false, bool windows = false);
 
 }  // namespace luxel::scene
