@@ -136,6 +136,8 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("voxelize"))
     for (const BenchSetting& setting : voxelize_settings(context->profile()))
       line("voxelize " + setting.name, setting);
+  if (wanted.wants("voxelize"))
+    for (const BenchSetting& setting : voxel_inject_settings(context->profile())) line(setting.name, setting);
   if (wanted.wants("cone_trace"))
     for (const BenchSetting& setting : cone_trace_settings(context->profile()))
       line("cone_trace " + setting.name, setting);

@@ -32,6 +32,9 @@ std::vector<BenchSetting> mip_build_settings(const Profile& profile);
 /// Main settings of voxelize: the bunny of LUXEL_DATA (without it a ball of as many triangles) at 64^3 to 256^3.
 std::vector<BenchSetting> voxelize_settings(const Profile& profile);
 
+/// Main settings of voxel_inject: a floor and a wall in 128^3, by shadow rays and from a map.
+std::vector<BenchSetting> voxel_inject_settings(const Profile& profile);
+
 /// Main settings of cone_trace: 256 x 64 receivers in 64^3, random voxels.
 std::vector<BenchSetting> cone_trace_settings(const Profile& profile);
 

@@ -105,7 +105,8 @@ Status cracks(Session& session) {
     const auto by_rays = lit.by(grid, voxel_lights({{VoxelLight::Kind::sun, {sun.x, sun.y, sun.z}, {1, 1, 1}, {}, 0}}, grid.origin, grid.voxel), 0);
     if (!by_rays) return by_rays.status();
     for (const double texels : {0.5, 1.0, 2.0, 4.0}) {
-      const auto found = lit.by(grid, shadow_map(rays.value(), grid, sun, texels, side), side);
+      const std::vector<float> map = shadow_map(rays.value(), grid, sun, texels, side);
+      const auto found = lit.by(grid, map, side);
       if (!found) return found.status();
       double all = 0, missed = 0;
       for (std::size_t i = 0; i < fine.value().size(); ++i) {
