@@ -676,6 +676,56 @@ TEST(VoxelInject, RefusesWhatItCannotTake) {
   refused([](P& p) { p.irradiance_max = 0; }, "irradiance_max");
 }
 
+// A tilted plane under a sun at the zenith, and maps of N texels a voxel. A voxel is missed where the part of the plane in it,
+// seen from above, lies between texels.
+TEST(VoxelInject, CracksOfAMapCloseWithItsResolution) {
+  const auto height = [](double x, double z) { return 0.37 * x + 0.21 * z + 2.3; };
+  Grid g(32, 24, 32);
+  std::size_t occupied = 0;
+  for (int z = 0; z < 32; ++z)
+    for (int y = 0; y < 24; ++y)
+      for (int x = 0; x < 32; ++x)
+        if (height(x, z) <= y + 1 && height(x + 1, z + 1) >= y) {
+          g.put(x, y, z, {0.5f, 0.5f, 0.5f, 1}, {0, 1, 0});
+          ++occupied;
+        }
+  g.list_bricks();
+  for (const std::string& device : test_devices()) {
+    double before = 1;
+    // The share of voxels without a texel's point, counted on paper for each map.
+    for (const double per_voxel : {0.5, 1.0, 2.0, 4.0}) {
+      const int side = static_cast<int>(32 * per_voxel);
+      std::vector<float> map;
+      std::vector<char> hit(g.voxels());
+      for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i) {
+          const double x = (i + 0.5) / per_voxel, z = (j + 0.5) / per_voxel;
+          for (const double v : {x, height(x, z), z, 1.0, 1.0, 1.0, 1.0, 0.0}) map.push_back(static_cast<float>(v));
+          hit[g.at(static_cast<int>(x), static_cast<int>(static_cast<float>(height(x, z))), static_cast<int>(z))] = 1;
+        }
+      VoxelInjectParams p = g.params();
+      p.map_width = p.map_height = side;
+      p.count = true;
+      const auto out = inject(device, g, p, map);
+      const std::vector<std::uint32_t> outcomes = words(out[1]);
+      const auto expected = static_cast<std::uint32_t>(std::count(hit.begin(), hit.end(), 1));
+      EXPECT_EQ(outcomes[0], expected) << device << " " << per_voxel;
+      EXPECT_EQ(outcomes[0] + outcomes[1], occupied) << device;
+      EXPECT_EQ(outcomes[2], 0u) << device << ": every point lies in a voxel";
+      const double missed = static_cast<double>(outcomes[1]) / static_cast<double>(occupied);
+      EXPECT_LT(missed, before) << device << " " << per_voxel;
+      if (per_voxel == 0.5) {
+        EXPECT_GT(missed, 0.75) << device << ": three columns of four have no texel";
+      }
+      if (per_voxel == 2) {
+        EXPECT_GT(missed, 0.01) << device << ": twice the resolution is not enough for every voxel";
+      }
+      before = missed;
+    }
+    EXPECT_LT(before, 0.125) << device << ": what is left are parts of about a texel, 1/16 voxel^2, and less";
+  }
+}
+
 // --- Windows
 
 // A hall with a few blocks, lit by a sun, a point, a patch and a map.

@@ -21,39 +21,13 @@ using scene::SceneVoxels;
 using Step = SharedPlans::Step;
 constexpr Format format = Format::f16x4;
 
-struct Row {
-  const char *kernel, *variant, *metric;
-  std::string scene, size;
-  Json knobs;
-  double error = 0;
-};
-
-void row(Session& session, const Row& r, const Session::Pair& times) {
-  session.row("frontier",
-              {{"kernel", r.kernel},
-               {"variant", r.variant},
-               {"device", session.device()},
-               {"scene", r.scene},
-               {"size", r.size},
-               {"options", {{"format", name(format)}}},
-               {"knobs", r.knobs},
-               {"time_ms",
-                {{"build", to_json(summarise(times.a))}, {"update", to_json(summarise(times.b))}, {"shade", nullptr}}},
-               {"error",
-                {{"metric", r.metric},
-                 {"rounding", nullptr},
-                 {"storage", nullptr},
-                 {"device", nullptr},
-                 {"method", r.error},
-                 {"discretization", nullptr},
-                 {"model", nullptr},
-                 {"stderr", nullptr}}},
-               {"bytes", nullptr},
-               {"flops", nullptr},
-               {"memory_bytes", nullptr},
-               {"on_frontier", nullptr},
-               {"group", fmt::format("{}|{}|{}|{}|{}|{}", r.kernel, r.variant, session.device(), r.scene, r.size,
-                                     r.knobs.dump())}});
+// Times of everything anew and of the update alone.
+void row(Session& session, FrontierRow r, const Session::Pair& times) {
+  r.options = {{"format", name(format)}};
+  r.group = r.variant + r.knobs.dump();
+  r.build = to_json(summarise(times.a));
+  r.update = to_json(summarise(times.b));
+  session.frontier(r);
 }
 
 // The triangles of a scene as voxelize takes them, under names with a prefix.
@@ -127,8 +101,10 @@ Status scroll(Session& session, const std::string& shown, const std::string& wha
     for (std::size_t i = 0; i < a.value().size(); i += 8)
       different += !std::equal(&a.value()[i], &a.value()[i] + 8, &b.value()[i]);
     session.promise_bits("voxelize", different == 0, fmt::format("a window that scrolls by {} in {}", by, shown));
-    row(session, {"voxelize", "window that scrolls", "voxels that differ from the window anew", shown,
-                  fmt::format("{0}x{0}x{0}", extent), {{"moved", by}}, different}, times.value());
+    FrontierRow r{"voxelize", "window that scrolls", shown, fmt::format("{0}x{0}x{0}", extent), {}, {{"moved", by}}, "",
+                  {"voxels that differ from the window anew"}};
+    r.error.method = different;
+    row(session, r, times.value());
   }
   return {};
 }
@@ -243,8 +219,10 @@ Status moving_light(Session& session, const std::string& shown, const std::strin
   double different = 0;
   for (std::size_t i = 0; i < a.value().size(); i += 8)
     different += !std::equal(&a.value()[i], &a.value()[i] + 8, &b.value()[i]);
-  row(session, {"voxel_inject", "light that moves: light and mips", "voxels whose light differs from everything anew", shown,
-                fmt::format("{0}x{0}x{0}", n), {{"triangles", read.value().indices.size()}}, different}, times.value());
+  FrontierRow r{"voxel_inject", "light that moves: light and mips", shown, fmt::format("{0}x{0}x{0}", n), {},
+                {{"triangles", read.value().indices.size()}}, "", {"voxels whose light differs from everything anew"}};
+  r.error.method = different;
+  row(session, r, times.value());
   return {};
 }
 
@@ -335,10 +313,11 @@ Status moving_object(Session& session, const std::string& shown, const std::stri
     occupied += (a.value()[i + 6] | a.value()[i + 7]) != 0;
     different += !std::equal(&a.value()[i], &a.value()[i] + 8, &b.value()[i]);
   }
-  row(session, {"voxelize", "object that moves: voxels, light and mips", "share of occupied voxels that differ from everything anew",
-                shown, fmt::format("{0}x{0}x{0}", n),
-                {{"triangles", building.indices.size()}, {"moving", here.indices.size()}}, different / std::max(occupied, 1.0)},
-      times.value());
+  FrontierRow r{"voxelize", "object that moves: voxels, light and mips", shown, fmt::format("{0}x{0}x{0}", n), {},
+                {{"triangles", building.indices.size()}, {"moving", here.indices.size()}}, "",
+                {"share of occupied voxels that differ from everything anew"}};
+  r.error.method = different / std::max(occupied, 1.0);
+  row(session, r, times.value());
   return {};
 }
 
