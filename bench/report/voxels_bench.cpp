@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <luxel/voxel_inject.h>
 #include <luxel/voxelize.h>
@@ -86,7 +88,11 @@ std::vector<BenchSetting> voxel_inject_settings(const Profile& profile) {
     settings.push_back({text, made.value(), {}, {}});
     for (const auto& entry : data)
       for (const Resource& r : made.value().resources)
-        if (r.name == entry.first) settings.back().data.push_back(entry);
+        if (r.name == entry.first) {
+          const std::size_t count = std::min(entry.second->size(), r.bytes / bytes_per_pixel(r.format) * static_cast<std::size_t>(channels(r.format)));
+          const auto end = entry.second->begin() + static_cast<std::ptrdiff_t>(count);
+          settings.back().data.emplace_back(r.name, shared({entry.second->begin(), end}));
+        }
   };
   add("voxel_inject 128^3 f16x4 a sun", [](VoxelInjectParams& p) { p.lights = 1; });
   add("voxel_inject 128^3 f16x4 a sun and a point", [](VoxelInjectParams& p) { p.lights = 2; });
