@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <cmath>
 
+#include "host/bilateral_plans.h"
 #include "host/check.h"
 #include "host/planner.h"
 
@@ -24,7 +25,9 @@ int radius_of(const BilateralParams& p) {
   return static_cast<int>(std::ceil(std::min(3 * p.sigma_space, 65536.0)));
 }
 
-int largest_radius(const BilateralParams& p) { return p.variant == BilateralVariant::separable ? 1024 : 96; }
+int largest_radius(const BilateralParams& p) {
+  return p.variant == BilateralVariant::separable || p.variant == BilateralVariant::discontinuity ? 1024 : 96;
+}
 
 // log2 of the spatial weight at `distance` pixels.
 double space_exponent(const BilateralParams& p, double distance) {
@@ -47,9 +50,11 @@ Status validate(const BilateralParams& p) {
   };
   LUXEL_CHECK(stride("BilateralParams.src_stride", p.src_stride));
   LUXEL_CHECK(stride("BilateralParams.dst_stride", p.dst_stride));
-  LUXEL_CHECK(check_range("BilateralParams.variant", static_cast<int>(p.variant), 0, 2));
+  LUXEL_CHECK(check_range("BilateralParams.variant", static_cast<int>(p.variant), 0, 4));
   const bool atrous = p.variant == BilateralVariant::atrous;
-  if (!atrous) {
+  if (p.variant == BilateralVariant::grid) {
+    LUXEL_CHECK(validate_grid(p));
+  } else if (!atrous) {
     LUXEL_CHECK(check_range("BilateralParams.sigma_space", p.sigma_space, 0.0, static_cast<double>(HUGE_VAL)));
     LUXEL_CHECK(check_range("BilateralParams.radius", p.radius, -1, largest_radius(p)));
     if (radius_of(p) > largest_radius(p))
@@ -96,6 +101,7 @@ Status validate(const BilateralParams& p) {
   LUXEL_CHECK(check_range("BilateralParams.border", static_cast<int>(p.border), 0, 3));
   if (p.alpha && channels(p.format) != 4)
     return out_of_range("BilateralParams.alpha", "true", "false for a format of fewer than four channels");
+  if (p.variant == BilateralVariant::grid || p.variant == BilateralVariant::discontinuity) LUXEL_CHECK(validate_terms(p));
   const long long pixels = static_cast<long long>(std::max({p.src_stride, p.dst_stride, p.width})) * p.height;
   if (pixels * 16 > 0x7fffffffLL)
     return out_of_range("BilateralParams.height", p.height, "stride x height of at most 134217727");
@@ -376,6 +382,8 @@ class Builder {
 
 Result<Plan> plan(const BilateralParams& p, const Profile& profile) {
   LUXEL_CHECK(validate(p));
+  if (p.variant == BilateralVariant::grid) return plan_grid(p, profile);
+  if (p.variant == BilateralVariant::discontinuity) return plan_discontinuity(p, profile);
   return Builder(p, profile).build();
 }
 

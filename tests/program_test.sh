@@ -392,6 +392,13 @@ assert all(a[i] == b[i] for i in sky)
 END
 expect 0 'bilateral separable f32x1' "$luxel" bilateral --device cpu --in edge.npy --variant separable --adaptive --sigma-range 0 -o filtered.npy
 same edge.npy filtered.npy
+expect 0 'bilateral grid f32x4' "${filter[@]}" --device cpu --variant grid --sigma-space 4
+expect 0 'bilateral discontinuity f32x4' "${filter[@]}" --device cpu --variant discontinuity --depth depth.npy --normal normal.npy
+expect 2 '--variant is discontinuity; expected --depth' "${filter[@]}" --variant discontinuity
+expect 0 'denoise 24x16, 3 levels' "$luxel" denoise --device cpu --color edge3.npy --albedo edge3.npy --normal normal.npy --depth depth.npy --levels 3 -o smooth.exr
+expect 2 'edge\.npy: has 1 channels; --color expects 3 or more' "$luxel" denoise --color edge.npy -o smooth.exr
+expect 2 'small\.npy: has 2x2 pixels; --depth expects those of --color, 24x16' "$luxel" denoise --color edge3.npy --depth small.npy -o smooth.exr
+expect 2 '--levels: ' "$luxel" denoise --color edge3.npy --levels 9 -o smooth.exr
 expect 2 '--range is guide; expected --guide' "${filter[@]}" --range guide
 expect 2 'small\.npy: has 2x2 pixels; --depth expects those of --in, 24x16' "${filter[@]}" --depth small.npy
 expect 2 'depth\.npy: has 1 channels; --normal expects 3 or more' "${filter[@]}" --normal depth.npy

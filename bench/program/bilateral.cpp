@@ -1,4 +1,5 @@
 #include <luxel/bilateral.h>
+#include <luxel/discontinuity_mask.h>
 
 #include <algorithm>
 #include <cstring>
@@ -18,6 +19,7 @@ struct Arguments {
   std::string in, out, guide, depth, normal, variance, device;
   std::string variant, range, range_norm, window, taps, depth_term, border, format;
   double sigma_space = 3, sigma_range = 0.1, sigma_depth = 1, footprint = 0.001, sigma_normal = 128, sigma_luminance = 4;
+  double low = 0, high = 1, depth_threshold = 0.02, normal_threshold = 0.9;
   int radius = -1, step = 1, levels = 5;
   bool adaptive = false, alpha = false;
 };
@@ -45,8 +47,11 @@ BilateralParams parameters(const Arguments& a, const io::Image& image) {
   BilateralParams p;
   p.width = image.width;
   p.height = image.height;
-  p.variant = a.variant == "direct" ? BilateralVariant::direct
-              : a.variant == "separable" ? BilateralVariant::separable : BilateralVariant::atrous;
+  p.variant = a.variant == "direct" ? BilateralVariant::direct : a.variant == "separable" ? BilateralVariant::separable
+              : a.variant == "atrous" ? BilateralVariant::atrous : a.variant == "grid" ? BilateralVariant::grid
+              : BilateralVariant::discontinuity;
+  p.low = a.low;
+  p.high = a.high;
   p.sigma_space = a.sigma_space;
   p.radius = a.radius;
   p.step = a.step;
@@ -68,13 +73,33 @@ BilateralParams parameters(const Arguments& a, const io::Image& image) {
              : a.border == "wrap" ? Border::wrap : Border::zero;
   p.format = storage_format(a.format, image.channels);
   p.alpha = a.alpha;
-  p.count = true;
+  p.count = p.variant != BilateralVariant::grid && p.variant != BilateralVariant::discontinuity;
+  if (p.variant == BilateralVariant::discontinuity) {  // its guides make the mask
+    p.range = RangeTerm::off;
+    p.depth = DepthTerm::off;
+    p.normal = false;
+  }
   return p;
+}
+
+Status make_mask(Context& context, const Arguments& a, const BilateralParams& p, ResourceData& data) {
+  DiscontinuityMaskParams m;
+  m.width = p.width;
+  m.height = p.height;
+  m.normal = !a.normal.empty();
+  m.depth_threshold = a.depth_threshold;
+  m.normal_threshold = a.normal_threshold;
+  if (Status s = validate(m); !s) return s;
+  const Result<Plan> plan = luxel::plan(m, context.profile());
+  if (!plan) return plan.status();
+  Times times;
+  return run_plan(context, plan.value(), data, times);
 }
 
 // What was left out of the averages.
 std::string counts_text(const std::vector<std::uint8_t>& bytes) {
   std::array<std::uint32_t, 4> counts{};
+  if (bytes.size() < sizeof counts) return {};
   std::memcpy(counts.data(), bytes.data(), sizeof counts);
   const char* const what[] = {"pixels that are not finite", "guide colours that are not finite", "pixels without a surface",
                               "pixels without a normal"};
@@ -88,6 +113,7 @@ int run(const Arguments& a) {
   if (Status s = io::check_image_path(a.out); !s) return complain(s);
   if (a.range == "guide" && a.guide.empty()) return complain("--range is guide; expected --guide with an image", misused);
   if (a.range == "off" && !a.guide.empty()) return complain("--range is off; expected guide with --guide", misused);
+  if (a.variant == "discontinuity" && a.depth.empty()) return complain("--variant is discontinuity; expected --depth with an image", misused);
   Result<io::Image> read = io::read_image(a.in);
   if (!read) return complain(read.status(), true);
   io::Image& image = read.value();
@@ -123,6 +149,8 @@ int run(const Arguments& a) {
   for (const Guide& g : guides)
     if (!g.path.empty())
       data[g.resource] = io::pack(g.image.pixels, g.image.channels, io::format_for(Format::f32x1, g.image.channels), context.real64());
+  if (p.variant == BilateralVariant::discontinuity)
+    if (Status s = make_mask(context, a, p, data); !s) return complain(s);
   Times times;
   if (Status s = run_plan(context, plan.value(), data, times); !s) return complain(s.message(), failed);
 
@@ -157,7 +185,9 @@ void add_bilateral(CLI::App& app, int& exit_status) {
     add_switch(*command, k, name, *value);
   for (const auto& [name, value] : {std::pair{"--sigma-space", &a->sigma_space}, {"--sigma-range", &a->sigma_range},
                                     {"--sigma-depth", &a->sigma_depth}, {"--footprint", &a->footprint},
-                                    {"--sigma-normal", &a->sigma_normal}, {"--sigma-luminance", &a->sigma_luminance}})
+                                    {"--sigma-normal", &a->sigma_normal}, {"--sigma-luminance", &a->sigma_luminance},
+                                    {"--low", &a->low}, {"--high", &a->high}, {"--depth-threshold", &a->depth_threshold},
+                                    {"--normal-threshold", &a->normal_threshold}})
     add_number(*command, k, name, *value);
   for (const auto& [name, value] : {std::pair{"--radius", &a->radius}, {"--step", &a->step}, {"--levels", &a->levels}})
     add_number(*command, k, name, *value);

@@ -9,6 +9,7 @@ void add_devices(CLI::App& app, int& exit_status);
 void add_list(CLI::App& app, int& exit_status);
 void add_gaussian_blur(CLI::App& app, int& exit_status);
 void add_bilateral(CLI::App& app, int& exit_status);
+void add_denoise(CLI::App& app, int& exit_status);
 void add_mip_build(CLI::App& app, int& exit_status);
 void add_cone_trace(CLI::App& app, int& exit_status);
 void add_voxelize(CLI::App& app, int& exit_status);

@@ -70,6 +70,7 @@ int run(int argc, char** argv) {
   add_list(app, exit_status);
   add_gaussian_blur(app, exit_status);
   add_bilateral(app, exit_status);
+  add_denoise(app, exit_status);
   add_mip_build(app, exit_status);
   add_voxelize(app, exit_status);
   add_cone_trace(app, exit_status);

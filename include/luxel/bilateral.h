@@ -9,7 +9,9 @@ namespace luxel {
 enum class BilateralVariant {
   direct,     // (2R/step + 1)^2 taps
   separable,  // rows, then columns: 2 (2R/step + 1) taps, an approximation
-  atrous      // levels of 25 (or 9) taps, their distance doubled from level to level (Dammertz et al. 2010)
+  atrous,     // levels of 25 (or 9) taps, their distance doubled from level to level (Dammertz et al. 2010)
+  grid,       // bilateral grid: the same cost for every sigma_space; by luminance alone (Chen et al. 2007)
+  discontinuity  // Gaussian along rows and columns that stops at the edges of discontinuity_mask; no other term
 };
 
 enum class RangeTerm { off, self, guide };  // differences of colour: none, of src, of the image `guide`
@@ -27,11 +29,14 @@ struct BilateralParams {
   int dst_stride = 0;  // the same of dst
   BilateralVariant variant = BilateralVariant::direct;
 
-  double sigma_space = 3;  // pixels, 0..infinity (all taps alike); 0: the result is the input
-  int radius = -1;         // pixels, 0..96 (separable 0..1024); -1: ceil(3 sigma_space)
+  double sigma_space = 3;  // pixels, 0..infinity (all taps alike); 0: the result is the input; grid: 1..1024, a cell's side
+  int radius = -1;         // pixels, 0..96 (separable, discontinuity 0..1024); -1: ceil(3 sigma_space)
   int step = 1;            // pixels from tap to tap, 1..16; taps beyond the radius are not taken
   FilterWindow window = FilterWindow::square;
   bool adaptive = false;   // separable: the outer half of the window in pairs of averaged pixels
+
+  double low = 0, high = 1;  // grid: luminance of the first and last cell; what is beyond counts as there. At most 256
+                             // steps of sigma_range between them
 
   int levels = 5;          // atrous: 1..6; the taps of level i lie 2^i pixels apart
   int taps = 5;            // atrous: 5 (B3 spline, 25 taps a level) or 3 (9 taps); sigma_space, radius, step count not
@@ -63,7 +68,7 @@ struct BilateralParams {
 
 /// Resources of the plan: `src`, `dst`; where terms ask for them `guide` (colours), `depth` (f32x1, view space; 1e10 and
 /// more is sky), `normals`, `variance` (f32x1, of src's luminance), `variance_out` (f32x1), `counters` (4 uint, which the
-/// caller clears). Guides are width * height pixels, rows without gaps. A pixel that is not finite keeps its value and
+/// caller clears), discontinuity: `mask` (of discontinuity_mask). Guides are width * height pixels, rows without gaps. A pixel that is not finite keeps its value and
 /// weighs nothing elsewhere; so does one whose guides are no number or no surface.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const BilateralParams& params);
@@ -71,5 +76,26 @@ Result<Plan> plan(const BilateralParams& params, const Profile& profile);
 
 /// Taps on each side that weigh at least 2^-64 beside the centre, `step` apart; 0 where the result is the input.
 int effective_taps(const BilateralParams& params);
+
+/// An image of 1/ratio the size at full size, guided by the depth, and normals, of both (joint bilateral upsampling, Kopf et al.
+/// 2007). The pixel (i, j) of src covers the ratio x ratio pixels from (i ratio, j ratio) on, and is taken to lie in their
+/// middle.
+struct BilateralUpsampleParams {
+  int width = 0;   // pixels of dst, 1..65535
+  int height = 0;  // pixels of dst, 1..65535; src has ceil(width / ratio) x ceil(height / ratio)
+  int ratio = 2;   // 2 or 4
+  bool nearest_depth = false;  // always the tap of nearest depth (Jansen and Bavoil 2011); else where no tap fits
+  double sigma_depth = 1;      // as BilateralParams
+  double footprint = 0.001;    // as BilateralParams
+  bool normal = false;
+  double sigma_normal = 32;    // power of the cosine, 0.01..4096
+  double least = 0.001;        // sum of weights (1 where every tap fits) below which the nearest depth is taken, 1e-12..1
+  Format format = Format::f32x4;  // of src and dst: f32x1, f32x4, f16x4
+};
+
+/// Resources of the plan: `src`, `depth_low`, `depth`, `dst`; `normals_low`, `normals` (f32x4). Depth of 1e10 and more is sky,
+/// which takes from sky. Taps that are not finite do not count. Errors: invalid_argument, naming field, value and range.
+Status validate(const BilateralUpsampleParams& params);
+Result<Plan> plan(const BilateralUpsampleParams& params, const Profile& profile);
 
 }  // namespace luxel
