@@ -117,10 +117,10 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
 
   // The size that the peers are compared at: 25 taps.
   const Shared full_hd = std::make_shared<Scene>(landscape(1920, 1080));
-  for (const Format format : session.is_cpu()
-                                 ? std::vector<Format>{Format::f32x1}
-                                 : std::vector<Format>{Format::f32x4, Format::f32x1, Format::f16x4, Format::unorm8x4})
-    grid.add(full_hd, params_for(*full_hd, 4, 3, format), 3);
+  std::vector<Format> formats{Format::f32x1};
+  if (!session.is_cpu()) formats.insert(formats.begin(), Format::f32x4);
+  if (!session.is_cpu() && !quick) formats.insert(formats.end(), {Format::f16x4, Format::unorm8x4});
+  for (const Format format : formats) grid.add(full_hd, params_for(*full_hd, 4, 3, format), 3);
   GaussianBlurParams image = params_for(*full_hd, 4, 3);
   image.input = Input::image;
   if (!session.is_cpu()) grid.add(full_hd, image, 3);

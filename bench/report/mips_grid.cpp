@@ -60,8 +60,9 @@ MipScenes mip_scenes(const Settings& settings, const std::vector<std::shared_ptr
   MipScenes scenes;
   scenes.room =
       std::make_shared<MipScene>(MipScene{"room (generated)", {side, side, side}, 4, scene::voxel_room(side)});
+  const int width = settings.quick ? 960 : 1920, height = settings.quick ? 540 : 1080;
   scenes.hall =
-      std::make_shared<MipScene>(MipScene{"hall (generated)", {1920, 1080, 1}, 1, scene::depth_map(1920, 1080)});
+      std::make_shared<MipScene>(MipScene{"hall (generated)", {width, height, 1}, 1, scene::depth_map(width, height)});
   if (files.empty()) {
     scenes.picture = std::make_shared<MipScene>(
         MipScene{"landscape (generated)", {512, 288, 1}, 4, scene::hdr_landscape(512, 288, 4)});
@@ -130,8 +131,10 @@ std::vector<Job> mip_grid(Session& session, const MipScenes& scenes) {
     add(s);
   }
 
-  // Drift over eight levels: multiples of a step of unorm8, so that ties are as frequent as can be.
-  MipScene ties{"multiples of 1/255 (generated)", {256, 64, 64}, 4, scene::noise(256, 64 * 64, 4, 52)};
+  // Drift over eight levels (seven in quick reports): multiples of a step of unorm8, so that ties are as frequent as can be.
+  const int half = quick ? 2 : 1;
+  const std::array<int, 3> side{256 / half, 64 / half, 64 / half};
+  MipScene ties{"multiples of 1/255 (generated)", side, 4, scene::noise(side[0], side[1] * side[2], 4, 52)};
   for (double& v : ties.values) v = static_cast<float>(static_cast<int>(v * 256) / 255.0);
   const auto drifting = std::make_shared<MipScene>(std::move(ties));
   for (const Format format : colour) add(setting_for(drifting, MipVariant::isotropic, format), true);
