@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/scene/voxel_scene.h"
+#include "bench/scene/interleaved.h"
 #include "common.h"
 #include "render.h"
 
@@ -66,14 +66,10 @@ Result<RenderOutput> render_cone(const RenderInput& input) {
   scene::VoxelScene& voxels = built.value();
   if (Status s = voxels.light(); !s) return s;
 
-  const dvec3 origin(voxels.grid().origin[0], voxels.grid().origin[1], voxels.grid().origin[2]);
-  std::vector<float> receivers, views;
+  const std::vector<float> receivers = receivers_of(g, voxels.grid());
+  std::vector<float> views;
   bool glossy = false;
   for (std::size_t i = 0; i < g.pixels(); ++i) {
-    const dvec3 place = g.at(g.position, i) - origin, normal = g.at(g.normal, i);
-    for (const double v :
-         {place.x, place.y, place.z, static_cast<double>(g.roughness[i]), normal.x, normal.y, normal.z, 0.0})
-      receivers.push_back(static_cast<float>(v));
     const dvec3 view = input.scene.camera.eye - g.at(g.position, i);
     for (const double v : {view.x, view.y, view.z, 0.0}) views.push_back(static_cast<float>(v));
     glossy = glossy || g.at(g.specular, i) != dvec3(0);

@@ -359,7 +359,8 @@ Status VoxelScene::see_sky(ConeTraceParams& p) {
   p.environment = {1, 1, 1};
   p.sky_size = 33;
   p.sky_levels = 6;
-  p.sky_aperture = std::min(2.6, 2 * p.cones.front().aperture);
+  if (p.cones.empty()) p.cones = cone_set(6).value();
+  p.sky_aperture = std::clamp(2 * p.cones.front().aperture, 0.01, 2.6);
   if (sky_ && sky_aperture_ == p.sky_aperture) return {};
   const auto start = std::chrono::steady_clock::now();
   const std::vector<float> texels = cone_sky(
