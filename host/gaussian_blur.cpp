@@ -15,6 +15,13 @@ constexpr int max_radius = 4095;        // the table of weights has 4096 entries
 constexpr double least_sigma = 0.0757;  // below, exp(-1/(2 sigma^2)) is no normal float
 constexpr int max_direct_radius = 96;   // (2R+1)^2 taps a pixel: beyond, software drivers take minutes
 
+bool has_taps(GaussianVariant variant) { return variant < GaussianVariant::recursive; }
+
+const char* name(GaussianVariant variant) {
+  static const char* const names[] = {"separable", "direct", "sampler", "recursive", "box", "pyramid"};
+  return names[static_cast<int>(variant)];
+}
+
 double half_step(Format format) {
   switch (format) {
     case Format::unorm8x4: return 1.0 / 510.0;
@@ -50,11 +57,11 @@ Status validate(const GaussianBlurParams& p) {
   LUXEL_CHECK(stride("GaussianBlurParams.dst_stride", p.dst_stride));
   LUXEL_CHECK(check_range("GaussianBlurParams.sigma", p.sigma, 0.0, 10000.0));
   LUXEL_CHECK(check_range("GaussianBlurParams.radius", p.radius, -1, max_radius));
-  const bool taps = p.variant < GaussianVariant::recursive;
+  const bool taps = has_taps(p.variant);
   if (taps && p.radius < 0 && std::ceil(3 * p.sigma) > max_radius)
     return out_of_range("GaussianBlurParams.sigma", p.sigma, "0..1365, or a radius given (0..4095)");
   LUXEL_CHECK(check_range("GaussianBlurParams.border", static_cast<int>(p.border), 0, 3));
-  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 4));
+  LUXEL_CHECK(check_range("GaussianBlurParams.variant", static_cast<int>(p.variant), 0, 5));
   LUXEL_CHECK(check_range("GaussianBlurParams.input", static_cast<int>(p.input), 0, 2));
   if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
     return out_of_range("GaussianBlurParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
@@ -73,20 +80,34 @@ Status validate(const GaussianBlurParams& p) {
     if (p.keep_alpha) return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for variant sampler");
   }
   if (!taps) {
-    const std::string variant = p.variant == GaussianVariant::recursive ? "variant recursive" : "variant box";
-    const bool recursive = p.variant == GaussianVariant::recursive;
+    const std::string variant = std::string("variant ") + name(p.variant);
     if (p.radius >= 0) return out_of_range("GaussianBlurParams.radius", p.radius, "-1 for " + variant);
     if (p.input == Input::storage_image)
       return out_of_range("GaussianBlurParams.input", "storage_image", "buffer or image for " + variant);
     if (p.difference) return out_of_range("GaussianBlurParams.difference", "true", "false for " + variant);
+  }
+  constexpr double most_values = 0x7fffffff;
+  if (p.variant == GaussianVariant::recursive) {
     LUXEL_CHECK(check_range("GaussianBlurParams.order", p.order, 3, 5));
-    LUXEL_CHECK(check_range("GaussianBlurParams.passes", p.passes, 1, 5));
-    if (recursive && recursive_scratch(p) > 0x7fffffff)
+    if (recursive_scratch(p) > most_values)
       return out_of_range("GaussianBlurParams.height", p.height,
                           "2 x width x height x channels of at most 2147483647 for variant recursive");
-    if (!recursive && box_scratch(p) > 0x7fffffff)
+  }
+  if (p.variant == GaussianVariant::box) {
+    LUXEL_CHECK(check_range("GaussianBlurParams.passes", p.passes, 1, 5));
+    if (box_scratch(p) > most_values)
       return out_of_range("GaussianBlurParams.sigma", p.sigma,
                           "lines that reach passes x sigma beyond the image, of at most 2147483647 values, for variant box");
+  }
+  if (p.variant == GaussianVariant::pyramid) {
+    LUXEL_CHECK(check_range("GaussianBlurParams.filter", static_cast<int>(p.filter), 0, 1));
+    if (p.levels >= 0 && p.levels < least_levels(p))
+      return out_of_range("GaussianBlurParams.levels", p.levels, "-1, or " + std::to_string(least_levels(p)) + " at least");
+    LUXEL_CHECK(check_range("GaussianBlurParams.levels", p.levels, -1, most_levels(p)));
+    if (p.keep_alpha) return out_of_range("GaussianBlurParams.keep_alpha", "true", "false for variant pyramid");
+    if (pyramid_scratch(p) > most_values)
+      return out_of_range("GaussianBlurParams.sigma", p.sigma,
+                          "a level that reaches 4 sigma beyond the image, of at most 2147483647 values, for variant pyramid");
   }
   const long long pixels = static_cast<long long>(std::max(p.src_stride, p.dst_stride) > 0
                                                       ? std::max({p.src_stride, p.dst_stride, p.width}) : p.width) * p.height;
@@ -159,8 +180,47 @@ Format f32_of(Format format) {
 }
 
 std::string module_of(const Pixels& from, const Pixels& to, const Profile& profile) {
-  const std::string read = from.image ? "image_" : profile.texels ? "texels_" : "", source = name(from.format);
+  const std::string source = name(from.format);
+  const char* const read = from.input == Input::image           ? "image_"
+                           : from.input == Input::storage_image ? "storage_"
+                           : profile.texels                     ? "texels_"
+                                                                : "";
   return read + (from.format == to.format ? source : source + "_" + name(to.format));
+}
+
+void plan_separable(const GaussianBlurParams& p, const Profile& profile, Planner& planner, const Pixels& from,
+                    const Pixels& to) {
+  const int n = channels(p.format), radius = effective_radius(p);
+  const int radius_x = p.width > 1 ? radius : 0;  // along an axis of one pixel every border gives that pixel
+  const int radius_y = p.height > 1 ? radius : 0;
+  const int most = std::max(radius_x, radius_y);  // 0 for a single pixel
+  const Slot weights = planner.table(gaussian_weights(p.sigma, most, true), gaussian_weights(p.sigma, most, false));
+  const auto axis_pass = [&](int axis, int r, const Pixels& in, const Pixels& out) {
+    const Shape& shape = axis == 0 ? profile.rows : profile.columns;
+    const int lanes = std::max(shape.lanes, n);
+    const int wide_pixels = lanes / n;
+    const int across = axis == 0 ? wide_pixels * shape.block : wide_pixels;
+    const int down = axis == 0 ? 1 : shape.block;
+    planner.pass("gaussian_blur", module_of(in, out, profile), axis == 0 ? "gaussian_blur rows" : "gaussian_blur columns",
+                 {static_cast<std::uint32_t>((p.width + across - 1) / across),
+                  static_cast<std::uint32_t>((p.height + down - 1) / down), 1},
+                 shape.workgroup,
+                 {{"width", p.width}, {"height", p.height}, {"src_stride", in.stride}, {"dst_stride", out.stride}},
+                 {{"RADIUS", r}, {"AXIS", axis}, {"BORDER", static_cast<int>(p.border)}, {"DIFFERENCE", p.difference},
+                  {"KEEP_ALPHA", p.keep_alpha}, {"UNROLLED", r <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes},
+                  {"BLOCK", shape.block}},
+                 {{"src", in.slot}, {"dst", out.slot}, {"weights", weights}});
+    const double pixels = static_cast<double>(p.width) * p.height;
+    planner.cost(pixels * n * (1 + 3.0 * r), pixels * (bytes_per_pixel(in.format) + bytes_per_pixel(out.format)));
+  };
+  if (radius_x > 0 && radius_y > 0) {
+    const Format format = f32_of(p.format);
+    const Pixels middle{planner.scratch(format, static_cast<std::size_t>(p.width) * p.height), format, p.width};
+    axis_pass(0, radius_x, from, middle);
+    axis_pass(1, radius_y, middle, to);
+  } else {
+    axis_pass(radius_y > 0 ? 1 : 0, most, from, to);
+  }
 }
 
 Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
@@ -173,11 +233,9 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   const int radius_y = p.height > 1 ? radius : 0;
   // Where no neighbour has a weight, every variant is a copy.
   const bool copies = p.sigma < least_sigma || (p.width == 1 && p.height == 1);
-  const bool recursive = p.variant == GaussianVariant::recursive && !copies;
-  const bool box = p.variant == GaussianVariant::box && !copies;
   const bool separable = p.variant != GaussianVariant::direct;
   const bool sampler = p.variant == GaussianVariant::sampler;
-  const bool two = separable && (recursive || box ? p.width > 1 && p.height > 1 : radius_x > 0 && radius_y > 0);
+  const bool two = p.width > 1 && p.height > 1 && (has_taps(p.variant) ? separable && radius > 0 : !copies);
 
   Planner planner("gaussian_blur");
   Resource src{"src"}, dst{"dst"};
@@ -195,16 +253,16 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   }
   const Slot from = planner.resource(src);
   const Slot to = planner.resource(dst);
-  if (recursive || box) {
-    const Pixels in{from, p.format, src_stride, p.input == Input::image}, out{to, p.format, dst_stride};
-    recursive ? plan_recursive(p, profile, planner, in, out) : plan_box(p, profile, planner, in, out);
+  const Pixels in{from, p.format, src_stride, p.input}, out{to, p.format, dst_stride};
+  if (!copies && !has_taps(p.variant)) {
+    if (p.variant == GaussianVariant::recursive) plan_recursive(p, profile, planner, in, out);
+    if (p.variant == GaussianVariant::box) plan_box(p, profile, planner, in, out);
+    if (p.variant == GaussianVariant::pyramid) plan_pyramid(p, profile, planner, in, out);
     return std::move(planner).finish();
   }
   const std::string name_of = name(p.format);
   const Format middle_format = f32_of(p.format);
   const std::string middle_name = name(middle_format);
-  const std::string read = profile.texels && separable ? "texels_" : "";  // how buffers are read
-  const std::string input = (p.input == Input::buffer ? read : p.input == Input::image ? "image_" : "storage_") + name_of;
 
   const auto weights = [&](int r) {
     return planner.table(gaussian_weights(p.sigma, r, true), gaussian_weights(p.sigma, r, false));
@@ -214,7 +272,7 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
   if (!separable) {
     const Shape& shape = profile.pixels;
     const int lanes = std::max(shape.lanes, n);
-    planner.pass("gaussian_blur_direct", input, "gaussian_blur direct",
+    planner.pass("gaussian_blur_direct", (p.input == Input::image ? "image_" : "") + name_of, "gaussian_blur direct",
                  {static_cast<std::uint32_t>((p.width + lanes / n - 1) / (lanes / n)), static_cast<std::uint32_t>(p.height), 1},
                  shape.workgroup,
                  {{"width", p.width}, {"height", p.height}, {"src_stride", src_stride}, {"dst_stride", dst_stride}},
@@ -259,36 +317,7 @@ Result<Plan> plan(const GaussianBlurParams& p, const Profile& profile) {
     return std::move(planner).finish();
   }
 
-  const auto axis_pass = [&](int axis, int r, const std::string& module, int in_stride, int out_stride, Slot in, Slot out,
-                             Slot table, double pass_bytes) {
-    const Shape& shape = axis == 0 ? profile.rows : profile.columns;
-    const int lanes = std::max(shape.lanes, n);
-    const int wide_pixels = lanes / n;
-    const int across = axis == 0 ? wide_pixels * shape.block : wide_pixels;
-    const int down = axis == 0 ? 1 : shape.block;
-    planner.pass("gaussian_blur", module, axis == 0 ? "gaussian_blur rows" : "gaussian_blur columns",
-                 {static_cast<std::uint32_t>((p.width + across - 1) / across),
-                  static_cast<std::uint32_t>((p.height + down - 1) / down), 1},
-                 shape.workgroup,
-                 {{"width", p.width}, {"height", p.height}, {"src_stride", in_stride}, {"dst_stride", out_stride}},
-                 {{"RADIUS", r}, {"AXIS", axis}, {"BORDER", static_cast<int>(p.border)}, {"DIFFERENCE", p.difference},
-                  {"KEEP_ALPHA", p.keep_alpha}, {"UNROLLED", r <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes},
-                  {"BLOCK", shape.block}},
-                 {{"src", in}, {"dst", out}, {"weights", table}});
-    planner.cost(pixels * n * (1 + 3.0 * r), pass_bytes);
-  };
-  const double edge = pixels * bytes_per_pixel(p.format);
-  const double inner = pixels * bytes_per_pixel(middle_format);
-  const Slot table = weights(std::max(radius_x, radius_y));  // 0 for a single pixel
-  if (two) {
-    const Slot middle = planner.scratch(middle_format, static_cast<std::size_t>(p.width) * p.height);
-    const bool same = p.format == middle_format;
-    axis_pass(0, radius_x, same ? input : input + "_" + middle_name, src_stride, p.width, from, middle, table, edge + inner);
-    axis_pass(1, radius_y, read + (same ? name_of : middle_name + "_" + name_of), p.width, dst_stride, middle, to, table, inner + edge);
-  } else {
-    const int axis = radius_y > 0 ? 1 : 0;
-    axis_pass(axis, axis == 0 ? radius_x : radius_y, input, src_stride, dst_stride, from, to, table, 2 * edge);
-  }
+  plan_separable(p, profile, planner, in, out);
   return std::move(planner).finish();
 }
 

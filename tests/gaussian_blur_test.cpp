@@ -91,6 +91,11 @@ TEST(GaussianBlurPlan, LeavesOutPassesThatChangeNothing) {
   EXPECT_EQ(passes(1, 32, 4), 2u);
   EXPECT_EQ(passes(1, 1, 4), 1u) << "a copy";
   EXPECT_EQ(passes(64, 32, 0.01), 1u) << "a copy";
+  p.variant = GaussianVariant::pyramid;
+  EXPECT_EQ(passes(64, 32, 8), 6u) << "two levels down, two passes, two levels up";
+  EXPECT_EQ(passes(64, 1, 8), 5u);
+  EXPECT_EQ(passes(64, 32, 2), 2u) << "too small a sigma for a level";
+  EXPECT_EQ(passes(64, 32, 0.01), 1u) << "a copy";
   p.variant = GaussianVariant::box;
   EXPECT_EQ(passes(64, 32, 4), 6u) << "three along two axes";
   EXPECT_EQ(passes(64, 1, 4), 3u);
@@ -119,7 +124,7 @@ TEST(GaussianBlurValidate, NamesFieldValueAndRange) {
       {"GaussianBlurParams.format is u32; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4", [](auto& p) { p.format = Format::u32; }},
       {"GaussianBlurParams.format is f16x2; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4", [](auto& p) { p.format = Format::f16x2; }},
       {"GaussianBlurParams.border is 9; expected 0..3", [](auto& p) { p.border = static_cast<Border>(9); }},
-      {"GaussianBlurParams.variant is 7; expected 0..4", [](auto& p) { p.variant = static_cast<GaussianVariant>(7); }},
+      {"GaussianBlurParams.variant is 7; expected 0..5", [](auto& p) { p.variant = static_cast<GaussianVariant>(7); }},
       {"GaussianBlurParams.keep_alpha is true; expected false for a format of fewer than four channels",
        [](auto& p) { p.keep_alpha = true; p.format = Format::f32x1; }},
       {"GaussianBlurParams.radius of variant direct is 97; expected 0..96",
@@ -142,6 +147,17 @@ TEST(GaussianBlurValidate, NamesFieldValueAndRange) {
       {"GaussianBlurParams.sigma is 10000; expected lines that reach passes x sigma beyond the image, of at most 2147483647 values, "
        "for variant box",
        [](auto& p) { p.variant = GaussianVariant::box; p.passes = 5; p.sigma = 10000; p.width = p.height = 11000; }},
+      {"GaussianBlurParams.levels is 4; expected -1..3",
+       [](auto& p) { p.variant = GaussianVariant::pyramid; p.sigma = 8; p.levels = 4; }},
+      {"GaussianBlurParams.levels is 0; expected -1, or 1 at least",
+       [](auto& p) { p.variant = GaussianVariant::pyramid; p.sigma = 1500; p.levels = 0; }},
+      {"GaussianBlurParams.filter is 2; expected 0..1",
+       [](auto& p) { p.variant = GaussianVariant::pyramid; p.filter = static_cast<PyramidFilter>(2); }},
+      {"GaussianBlurParams.keep_alpha is true; expected false for variant pyramid",
+       [](auto& p) { p.variant = GaussianVariant::pyramid; p.keep_alpha = true; }},
+      {"GaussianBlurParams.sigma is 10000; expected a level that reaches 4 sigma beyond the image, of at most 2147483647 values, "
+       "for variant pyramid",
+       [](auto& p) { p.variant = GaussianVariant::pyramid; p.sigma = 10000; }},
       {"GaussianBlurParams.height is 65535; expected stride x height x channels of at most 2147483647",
        [](auto& p) { p.width = p.height = 65535; }},
   };
@@ -181,7 +197,7 @@ TEST(GaussianBlurRounding, StaysWithinItsBound) {
 // Small enough for a checking simulator: every variant, format and way of reading, and every border, with tails.
 TEST(GaussianBlurSmall, EveryVariantRuns) {
   for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::sampler,
-                                       GaussianVariant::recursive, GaussianVariant::box})
+                                       GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid})
     for (const Format format : cases::pixel_formats)
       for (const Border border : cases::borders)
         for (const Input input : {Input::buffer, Input::image}) {

@@ -13,9 +13,9 @@ namespace luxel::program {
 namespace {
 
 struct Arguments {
-  std::string in, out, device, variant, border, format, input;
+  std::string in, out, device, variant, border, format, input, filter;
   double sigma = 0;
-  int radius = -1, order = 5, passes = 3;
+  int radius = -1, order = 5, passes = 3, levels = -1;
   bool difference = false, keep_alpha = false, drop_taps = false;
 };
 
@@ -35,6 +35,8 @@ GaussianBlurParams parameters(const Arguments& a, const io::Image& image) {
       variants.begin());
   p.order = a.order;
   p.passes = a.passes;
+  p.levels = a.levels;
+  p.filter = a.filter == "linear" ? PyramidFilter::linear : PyramidFilter::cubic;
   p.format = storage_format(a.format, image.channels);
   p.input = a.input == "image" || p.variant == GaussianVariant::sampler ? Input::image : Input::buffer;
   p.difference = a.difference;
@@ -65,7 +67,9 @@ int run(const Arguments& a) {
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
   const std::string knob = p.variant == GaussianVariant::recursive ? fmt::format("order {}", p.order)
                            : p.variant == GaussianVariant::box     ? fmt::format("{} passes", p.passes)
-                                                                   : fmt::format("radius {}", effective_radius(p));
+                           : p.variant == GaussianVariant::pyramid
+                               ? fmt::format("{} levels {}", effective_levels(p), a.filter)
+                               : fmt::format("radius {}", effective_radius(p));
   fmt::print("gaussian_blur {} {} {}x{}, sigma {}, {}, {} on {}: {}; wrote {}{}\n", a.variant, name(p.format), p.width,
              p.height, p.sigma, knob, a.border, context.info().id, time_text(times), a.out, changes_text(changes));
   return done;
@@ -87,9 +91,10 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
   add_number(*command, k, "--radius", a->radius);
   add_number(*command, k, "--order", a->order);
   add_number(*command, k, "--passes", a->passes);
+  add_number(*command, k, "--levels", a->levels);
   add_variant(*command, k, a->variant);
   for (const auto& [name, value] :
-       {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}})
+       {std::pair{"--border", &a->border}, {"--format", &a->format}, {"--input", &a->input}, {"--filter", &a->filter}})
     add_choice(*command, k, name, *value);
   for (const auto& [name, value] :
        {std::pair{"--difference", &a->difference}, {"--keep-alpha", &a->keep_alpha}, {"--drop-taps", &a->drop_taps}})

@@ -11,6 +11,7 @@
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
 #include "bench/scene/images.h"
+#include "tests/cases/gaussian_blur_support.h"
 #include "tests/cases/mip_build_support.h"
 
 namespace luxel::report {
@@ -69,7 +70,9 @@ std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Pr
   add("sampler", GaussianVariant::sampler, Format::f32x4, Input::image, 4);
   add("separable", GaussianVariant::separable, Format::f32x4, Input::buffer, 1);
   add("direct", GaussianVariant::direct, Format::f32x4, Input::buffer, 1);
-  add("separable", GaussianVariant::separable, Format::f32x4, Input::buffer, 12);
+  for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive, GaussianVariant::box,
+                                        GaussianVariant::pyramid})
+    add(cases::name(variant), variant, Format::f32x4, Input::buffer, 12);
   return settings;
 }
 

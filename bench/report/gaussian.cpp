@@ -68,7 +68,8 @@ const Values& truth_of(const GaussianBlurParams& p, const Values& src) {
 
 bool stores_less_than_f32(Format format) { return format == Format::f16x4 || format == Format::unorm8x4; }
 
-Result<std::vector<Oracle>> compute_oracle(Session& session, const BlurSetting& s, const Values& src, double full_scale) {
+Result<std::vector<Oracle>> compute_oracle(Session& session, const BlurSetting& s, const Values& src,
+                                           double full_scale) {
   const auto apart = [&](const Values& a, const Values& b) { return distance(s.metric, full_scale, a, b); };
   const auto exact = outcome(session.cpu_double(), s.params, src);
   if (!exact) return exact.status();
@@ -84,7 +85,7 @@ Result<std::vector<Oracle>> compute_oracle(Session& session, const BlurSetting& 
   // The same arithmetic, stored in f32: what is left of the difference is the storage format's.
   GaussianBlurParams wide = s.params;
   wide.format = Format::f32x4;
-  wide.radius = effective_radius(s.params);
+  if (cases::has_taps(wide.variant)) wide.radius = effective_radius(s.params);
   wide.drop_taps = false;
   const auto unrounded = outcome(session.cpu_float(), wide, src);
   if (!unrounded) return unrounded.status();
@@ -98,13 +99,32 @@ Json options_of(const GaussianBlurParams& p) {
           {"difference", p.difference}, {"keep_alpha", p.keep_alpha},      {"drop_taps", p.drop_taps}};
 }
 
+Json knobs_of(const BlurSetting& s) {
+  const GaussianBlurParams& p = s.params;
+  switch (p.variant) {
+    case GaussianVariant::recursive: return {{"sigma", p.sigma}, {"order", p.order}};
+    case GaussianVariant::box: return {{"sigma", p.sigma}, {"passes", p.passes}};
+    case GaussianVariant::pyramid:
+      return {{"sigma", p.sigma},
+              {"levels", effective_levels(p)},
+              {"filter", p.filter == PyramidFilter::linear ? "linear" : "cubic"}};
+    default: return {{"sigma", p.sigma}, {"k", s.k}, {"radius", effective_radius(p)}};
+  }
+}
+
 }  // namespace
 
 std::string label(const BlurSetting& s) {
   const GaussianBlurParams& p = s.params;
+  const char* const filter = p.filter == PyramidFilter::linear ? "linear" : "cubic";
+  const std::string knob = p.variant == GaussianVariant::recursive ? fmt::format("order {}", p.order)
+                           : p.variant == GaussianVariant::box     ? fmt::format("{} passes", p.passes)
+                           : p.variant == GaussianVariant::pyramid
+                               ? fmt::format("{} levels {}", effective_levels(p), filter)
+                           : s.k > 0 ? fmt::format("k {}", s.k)
+                                     : fmt::format("R {}", p.radius);
   return fmt::format("gaussian_blur {} {} sigma {} {}{}{}{}{}{} on {}", cases::name(p.variant), name(p.format), p.sigma,
-                     s.k > 0 ? fmt::format("k {}", s.k) : fmt::format("R {}", p.radius),
-                     p.border == Border::clamp ? "" : fmt::format(" {}", cases::name(p.border)),
+                     knob, p.border == Border::clamp ? "" : fmt::format(" {}", cases::name(p.border)),
                      p.input == Input::buffer || p.variant == GaussianVariant::sampler ? "" : " image",
                      p.difference ? " difference" : "", p.keep_alpha ? " keep_alpha" : "",
                      p.drop_taps ? " drop_taps" : "", s.scene->name);
@@ -149,9 +169,14 @@ Status measure_blur(Session& session, const BlurSetting& s) {
                           "float against double stays within (3R + 6) 2^-24 of the largest value",
                           errors.value()[0].rounding.get<double>() / cases::rounding_bound(effective_radius(p)), where);
 
-  FrontierRow row{"gaussian_blur", cases::name(p.variant), s.scene->name, size, options_of(p),
-                  {{"sigma", p.sigma}, {"k", s.k}, {"radius", effective_radius(p)}},
-                  fmt::format("{} {} {}", name(p.format), cases::name(p.border), p.sigma), errors.value()[0]};
+  FrontierRow row{"gaussian_blur",
+                  cases::name(p.variant),
+                  s.scene->name,
+                  size,
+                  options_of(p),
+                  knobs_of(s),
+                  fmt::format("{} {} {}", name(p.format), cases::name(p.border), p.sigma),
+                  errors.value()[0]};
   row.shade = to_json(ms.value());
   row.costs_of(run);
   session.frontier(row);

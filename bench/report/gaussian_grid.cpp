@@ -43,6 +43,32 @@ class Grid {
     }
   }
 
+  // Variants whose cost does not grow with sigma, with the knobs that their error depends on.
+  void without_taps(const Shared& scene, double sigma, Format format, BlurMetric metric = BlurMetric::largest) {
+    const bool few = quick_ || session_.is_cpu();
+    for (int order = few ? 5 : 3; order <= 5; ++order) {
+      GaussianBlurParams p = params_for(*scene, sigma, 0, format, GaussianVariant::recursive);
+      p.order = order;
+      add(scene, p, 0, metric);
+    }
+    for (int passes = few ? 3 : 1; passes <= (few ? 3 : 5); ++passes) {
+      GaussianBlurParams p = params_for(*scene, sigma, 0, format, GaussianVariant::box);
+      p.passes = passes;
+      add(scene, p, 0, metric);
+    }
+    for (const PyramidFilter filter : {PyramidFilter::linear, PyramidFilter::cubic}) {
+      GaussianBlurParams p = params_for(*scene, sigma, 0, format, GaussianVariant::pyramid);
+      p.filter = filter;
+      p.levels = -1;
+      // A level less costs more and errs less, one more the other way round.
+      const int chosen = effective_levels(p);
+      for (int levels = std::max(1, chosen - (few ? 0 : 1)); levels <= chosen + (few ? 0 : 1); ++levels) {
+        p.levels = levels;
+        if (validate(p)) add(scene, p, 0, metric);
+      }
+    }
+  }
+
   void copies(const Scene& scene) {
     add_copies(session_, jobs_, size_text(scene.width, scene.height), scene.width, scene.height);
   }
@@ -74,13 +100,23 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   const Shared small = std::make_shared<Scene>(landscape(quick ? 256 : 512, quick ? 256 : 512));
   const Shared main = files.empty() ? small : files.front();
 
-  for (const double sigma : sigmas) grid.ways(main, sigma, ks, Format::f32x4);
+  for (const double sigma : sigmas) {
+    grid.ways(main, sigma, ks, Format::f32x4);
+    grid.without_taps(main, sigma, Format::f32x4);
+  }
+  // Where taps are many, only so many as the coarser variants' errors ask for.
+  if (!quick && !session.is_cpu())
+    for (const double sigma : {50.0, 100.0}) {
+      for (const double k : {2.0, 3.0, 4.0}) grid.add(main, params_for(*main, sigma, k), k);
+      grid.without_taps(main, sigma, Format::f32x4);
+    }
   grid.copies(*main);
   for (std::size_t i = files.empty() ? files.size() : 1; i < files.size(); ++i)
     for (const double sigma : quick ? std::vector<double>{4} : std::vector<double>{2, 8})
       for (const double k : some_ks) grid.add(files[i], params_for(*files[i], sigma, k), k);
   for (const double sigma : quick ? std::vector<double>{4} : sigmas) {
     const Shared impulse = impulse_for(sigma);
+    grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
     for (const double k : ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
       if (!quick)
@@ -93,6 +129,8 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
 
   // Formats, borders and options at one sigma.
   for (const Format format : cases::pixel_formats)
+    if (!quick) grid.without_taps(small, 4, format);
+  for (const Format format : cases::pixel_formats)
     for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
       for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
         if (variant == GaussianVariant::separable || !quick || !session.is_cpu())
@@ -101,6 +139,11 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
     GaussianBlurParams p = params_for(*small, 4, 3);
     p.border = border;
     grid.add(small, p, 3);
+    for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid}) {
+      GaussianBlurParams other = params_for(*small, 4, 3, Format::f32x4, variant);
+      other.border = border;
+      if (!quick) grid.add(small, other, 0);
+    }
   }
   for (bool GaussianBlurParams::*const option : {&GaussianBlurParams::difference, &GaussianBlurParams::keep_alpha}) {
     GaussianBlurParams p = params_for(*small, 4, 3);

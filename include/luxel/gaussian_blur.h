@@ -17,7 +17,14 @@ enum class GaussianVariant {
   direct,     // one pass of (2R+1)^2 taps: the baseline
   sampler,    // separable, two texels per tap through the linear sampler; clamp and wrap only; src is an image
   recursive,  // poles, forward and backward along each axis: the same cost for every sigma
-  box         // repeated boxes of fractional width: the same cost for every sigma
+  box,        // repeated boxes of fractional width: the same cost for every sigma
+  pyramid     // blurred at a coarser level of the image: the larger sigma, the fewer pixels
+};
+
+/// How `pyramid` goes from level to level.
+enum class PyramidFilter {
+  linear,  // 4 binomial taps down, linear interpolation up
+  cubic    // 6 binomial taps down, a cubic B-spline up
 };
 
 struct GaussianBlurParams {
@@ -26,9 +33,11 @@ struct GaussianBlurParams {
   int src_stride = 0;         // pixels from row to row of src (buffers); 0: width
   int dst_stride = 0;         // pixels from row to row of dst; 0: width
   double sigma = 1.0;         // standard deviation in pixels, 0..10000
-  int radius = -1;            // taps on each side, 0..4095; -1: ceil(3 sigma); -1 where a variant has no taps (recursive, box)
+  int radius = -1;            // taps on each side, 0..4095; -1: ceil(3 sigma); -1 where a variant has no taps (recursive, box, pyramid)
   int order = 5;              // recursive: poles of a direction, 3..5
   int passes = 3;             // box: boxes one after another, 1..5
+  int levels = -1;            // pyramid: levels that halve the image, 0..12 as far as sigma allows; -1: chosen by sigma
+  PyramidFilter filter = PyramidFilter::linear;  // pyramid
   Border border = Border::clamp;
   GaussianVariant variant = GaussianVariant::separable;
   Format format = Format::f32x4;  // of src and dst: f32x1, f32x2, f32x4, f16x4, unorm8x4
@@ -39,8 +48,8 @@ struct GaussianBlurParams {
 };
 
 /// Resources of the plan: `src`, `dst`, `scratch`; `sampler` with two passes also `middle`, an image of src's size (f32 of
-/// src's channels) that is written and then sampled. src and dst may be the same buffer where `separable` takes two passes
-/// (radius and both extents above 0 and 1); elsewhere an execution refuses that.
+/// src's channels) that is written and then sampled. src and dst may be the same buffer where both extents are above 1 and
+/// there is something to blur, but for `direct` and `sampler`; elsewhere an execution refuses that.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const GaussianBlurParams& params);
 
@@ -49,6 +58,9 @@ Result<Plan> plan(const GaussianBlurParams& params, const Profile& profile);
 
 /// Radius that is really used: -1 resolved, dropped taps taken away.
 int effective_radius(const GaussianBlurParams& params);
+
+/// Levels that `pyramid` really uses: -1 resolved, so that the coarsest level is blurred by 1.8 of its pixels at least.
+int effective_levels(const GaussianBlurParams& params);
 
 /// Normalised weights 0..radius in double (index 0 is the centre; the others count twice).
 /// `rounded`: values that are floats and sum to 1.0f when added as the kernel adds them.

@@ -14,7 +14,7 @@ const char* name(Border border) {
 }
 
 const char* name(GaussianVariant variant) {
-  static const char* const names[] = {"separable", "direct", "sampler", "recursive", "box"};
+  static const char* const names[] = {"separable", "direct", "sampler", "recursive", "box", "pyramid"};
   return names[static_cast<int>(variant)];
 }
 
@@ -28,6 +28,7 @@ GaussianBlurParams blur_params(int width, int height, double sigma, int radius, 
   p.format = format;
   p.border = border;
   p.variant = variant;
+  if (variant == GaussianVariant::pyramid && sigma > 1.3) p.levels = 1;
   if (variant == GaussianVariant::sampler) p.input = Input::image;
   return p;
 }
@@ -69,6 +70,7 @@ std::vector<Case> gaussian_blur_cases() {
   add_equality_cases(cases);
   add_recursive_cases(cases);
   add_box_cases(cases);
+  add_pyramid_cases(cases);
   for (Case& c : cases) c.kernel = "gaussian_blur";
   return cases;
 }

@@ -35,11 +35,11 @@ void add_equal_bits(std::vector<Case>& cases) {
     for (const Border border : borders) {
       cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border), ""));
       cases.push_back(equal_to_cpp(blur_params(43, 29, 1.3, 4, format, border, GaussianVariant::direct), ""));
-      for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box})
+      for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid})
         cases.push_back(equal_to_cpp(blur_params(67, 43, 3.7, 12, format, border, variant), ""));
       // A format and a border meet only in the loads and stores, so that a row and a column of the table nearly say it
       // all.
-      for (auto c = cases.end() - 4; c != cases.end(); ++c)
+      for (auto c = cases.end() - 5; c != cases.end(); ++c)
         c->slow = format != Format::f32x4 && border != Border::clamp;
     }
   GaussianBlurParams p = blur_params(67, 43, 3.7, 12);
@@ -60,6 +60,11 @@ void add_equal_bits(std::vector<Case>& cases) {
     b.passes = passes;
     cases.push_back(equal_to_cpp(b, fmt::format(" {} passes", passes)));
   }
+  p = blur_params(67, 43, 12, 36, Format::f16x4, Border::clamp, GaussianVariant::pyramid);
+  p.levels = 3;
+  cases.push_back(equal_to_cpp(p, " 3 levels"));
+  p.filter = PyramidFilter::cubic;
+  cases.push_back(equal_to_cpp(p, " 3 levels cubic"));
   p = blur_params(67, 43, 60, 180, Format::f32x4, Border::clamp, GaussianVariant::box);
   cases.push_back(equal_to_cpp(p, " sigma 60"));
   p = blur_params(67, 43, 20, 60);
@@ -68,7 +73,7 @@ void add_equal_bits(std::vector<Case>& cases) {
     p = blur_params(67, 43, 3.7, 12, format, Border::mirror);
     p.input = Input::image;
     cases.push_back(equal_to_cpp(p, " image"));
-    for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box}) {
+    for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid}) {
       p = blur_params(67, 43, 3.7, 12, format, Border::clamp, variant);
       p.input = Input::image;
       cases.push_back(equal_to_cpp(p, " image"));
@@ -78,7 +83,8 @@ void add_equal_bits(std::vector<Case>& cases) {
 
 void add_in_place(std::vector<Case>& cases) {
   for (const Format format : pixel_formats)
-    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::recursive, GaussianVariant::box})
+    for (const GaussianVariant variant :
+         {GaussianVariant::separable, GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid})
       cases.push_back({"", fmt::format("in place, {} {}", name(variant), name(format)),
                        "src == dst gives what src and dst apart give, bit for bit (values that differ)", 0,
                        [=](Context& context) -> Result<double> {

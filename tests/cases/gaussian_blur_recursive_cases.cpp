@@ -205,29 +205,6 @@ void add_spikes(std::vector<Case>& cases) {
                    }});
 }
 
-// f32 between the passes: a result is the double execution's, rounded once.
-void add_single_rounding(std::vector<Case>& cases) {
-  for (const Format format : {Format::f16x4, Format::unorm8x4})
-    cases.push_back({"", fmt::format("recursive, {} accumulates in f32", name(format)),
-                     "within half a storage step of the double execution, and what f32 adds (in storage steps)", 0.52,
-                     [=](Context& context) -> Result<double> {
-                       const Values src = quantise(scene::noise(61, 43, 4, 7), format);
-                       const auto out = blur(context, recursive(61, 43, 8, format), src);
-                       if (!out) return out.status();
-                       const auto exact = Context::open("cpu:double");
-                       if (!exact) return exact.status();
-                       const auto expected = blur(*exact.value(), recursive(61, 43, 8, format), src);
-                       if (!expected) return expected.status();
-                       double most = 0;
-                       for (std::size_t i = 0; i < src.size(); ++i) {
-                         const double d =
-                             std::fabs(out.value()[i] - expected.value()[i]) / step(format, expected.value()[i]);
-                         if (!(d <= most)) most = d;
-                       }
-                       return most;
-                     }});
-}
-
 }  // namespace
 
 void add_recursive_cases(std::vector<Case>& cases) {
@@ -238,7 +215,6 @@ void add_recursive_cases(std::vector<Case>& cases) {
   add_constants(cases);
   add_spoilt(cases);
   add_spikes(cases);
-  add_single_rounding(cases);
 }
 
 }  // namespace luxel::cases

@@ -14,8 +14,8 @@ namespace {
 
 void add_input_unchanged(std::vector<Case>& cases, double sigma, int radius) {
   for (const Format format : pixel_formats)
-    for (const GaussianVariant variant :
-         {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive, GaussianVariant::box})
+    for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct,
+                                          GaussianVariant::recursive, GaussianVariant::box, GaussianVariant::pyramid})
       cases.push_back({"", fmt::format("sigma {} radius {}, {} {}", sigma, radius, name(variant), name(format)),
                        "sigma towards 0 gives the input bit for bit (values that differ)", 0,
                        [=](Context& context) -> Result<double> {

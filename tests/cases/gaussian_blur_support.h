@@ -20,7 +20,7 @@ const char* name(GaussianVariant variant);
 /// Whether a radius means anything to it.
 inline bool has_taps(GaussianVariant variant) { return variant < GaussianVariant::recursive; }
 
-/// Parameters by what the cases vary; the radius stays -1 where a variant has none.
+/// Parameters by what the cases vary; the radius stays -1 where a variant has none, `pyramid` has a level where sigma allows.
 GaussianBlurParams blur_params(int width, int height, double sigma, int radius, Format format = Format::f32x4,
                                Border border = Border::clamp, GaussianVariant variant = GaussianVariant::separable);
 
@@ -43,5 +43,6 @@ void add_storage_cases(std::vector<Case>& cases);
 void add_equality_cases(std::vector<Case>& cases);
 void add_recursive_cases(std::vector<Case>& cases);
 void add_box_cases(std::vector<Case>& cases);
+void add_pyramid_cases(std::vector<Case>& cases);
 
 }  // namespace luxel::cases

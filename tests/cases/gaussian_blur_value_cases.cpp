@@ -121,8 +121,8 @@ void add_constants(std::vector<Case>& cases) {
 }
 
 void add_strides(std::vector<Case>& cases) {
-  for (const GaussianVariant variant :
-       {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive, GaussianVariant::box})
+  for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::direct, GaussianVariant::recursive,
+                                        GaussianVariant::box, GaussianVariant::pyramid})
     for (const Border border : borders)
       cases.push_back({"", fmt::format("strides 40 and 37 for 29, {} {}", name(variant), name(border)),
                        "what lies between the rows is neither read nor written (NaN there; values that break it)", 0,
