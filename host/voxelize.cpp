@@ -136,8 +136,6 @@ Status validate(const VoxelizeParams& p) {
   LUXEL_CHECK(check_range("VoxelizeParams.bricks", p.bricks, 0, 1 << 24));
   LUXEL_CHECK(check_range("VoxelizeParams.fragments", p.fragments, 0, 1 << 28));
   LUXEL_CHECK(check_range("VoxelizeParams.texels", p.texels, 0, 1 << 28));
-  if (p.texels > 0 && p.device_vertices)
-    return out_of_range("VoxelizeParams.texels", p.texels, "0 with device_vertices");
   LUXEL_CHECK(check_range("VoxelizeParams.vertices", p.vertices, 0, 1 << 28));
   for (const double o : p.origin) LUXEL_CHECK(check_range("VoxelizeParams.origin", o, -1e30, 1e30));
   LUXEL_CHECK(check_range("VoxelizeParams.voxel", p.voxel, 1e-30, 1e30));
@@ -180,7 +178,12 @@ class Voxelization {
     }
     materials_ = resource("materials", Format::f32x4, static_cast<std::size_t>(p_.materials) * 2, false);
     if (p_.texels > 0) {
-      uvs_ = resource("uvs", Format::f32x1, triangles * 6, false);
+      if (p_.device_vertices) {
+        vertex_uvs_ = resource("uvs", Format::f32x1, static_cast<std::size_t>(p_.vertices) * 2, false);
+        uvs_ = planner_.scratch(Format::f32x1, std::max<std::size_t>(triangles, 1) * 6);
+      } else {
+        uvs_ = resource("uvs", Format::f32x1, triangles * 6, false);
+      }
       textures_ = resource("texture_table", Format::u32, static_cast<std::size_t>(p_.materials) * 8, false);
       texels_ = resource("texels", Format::u32, static_cast<std::size_t>(p_.texels), false);
       const std::vector<double> table = srgb_table();
@@ -254,13 +257,14 @@ class Voxelization {
 
   void round() {
     const auto invocations = launch(p_.triangles);
-    const double largest = std::max({p_.width, p_.height, p_.depth});
     const auto rest = [&](std::size_t k) { return p_.origin[k] - static_cast<float>(p_.origin[k]); };
     std::vector<std::pair<std::string_view, Slot>> slots{
         {"positions", positions_}, {"indices", indices_}, {"records", triangles_}, {"counters", counters_}};
     if (p_.device_materials) slots.emplace_back("material_list", chosen_);
-    planner_.pass("voxelize_round", p_.device_materials ? "materials" : "plain", "voxelize round vertices", invocations,
-                  line,
+    if (p_.texels > 0) slots.insert(slots.end(), {{"vertex_uvs", vertex_uvs_}, {"record_uvs", uvs_}});
+    const char* const module = p_.texels > 0 ? p_.device_materials ? "textured_materials" : "textured"
+                                             : p_.device_materials ? "materials" : "plain";
+    planner_.pass("voxelize_round", module, "voxelize round vertices", invocations, line,
                   {{"triangles", p_.triangles},
                    {"vertices", p_.vertices},
                    {"origin_x", static_cast<float>(p_.origin[0])},
@@ -270,11 +274,12 @@ class Voxelization {
                    {"rest_y", rest(1)},
                    {"rest_z", rest(2)},
                    {"scale", 65536 / p_.voxel},
-                   {"low", -2 * 65536 * largest},
-                   {"high", 3 * 65536 * largest},
+                   {"width", p_.width},
+                   {"height", p_.height},
+                   {"depth", p_.depth},
                    {"stride", stride(invocations)}},
                   {}, slots);
-    planner_.cost(0, 12.0 * p_.vertices + 60.0 * p_.triangles);
+    planner_.cost(0, (p_.texels > 0 ? 20.0 : 12.0) * p_.vertices + (p_.texels > 0 ? 84.0 : 60.0) * p_.triangles);
   }
 
   // Triangles to blocks to bricks; straight to bricks where a grid has few.
@@ -410,7 +415,7 @@ class Voxelization {
   const Capacities room_;
   const int words_;
   Planner planner_;
-  Slot positions_, indices_, chosen_, uvs_, textures_, texels_, srgb_;
+  Slot positions_, indices_, chosen_, vertex_uvs_, uvs_, textures_, texels_, srgb_;
   Slot triangles_, materials_, colour_, normal_, emission_, list_, fragments_, counters_;
   std::array<Slot, 3> under_;
   Slot left_, left_counters_;

@@ -337,53 +337,6 @@ TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
   }
 }
 
-// The same mesh with its vertices on the device, as floats.
-Voxelized voxelize_there(Context& context, const Mesh& mesh, const VoxelGrid& grid, VoxelizeParams params) {
-  params.device_vertices = params.device_materials = true;
-  params.triangles = static_cast<int>(mesh.triangles());
-  params.vertices = static_cast<int>(mesh.positions.size() / 3);
-  params.origin = grid.origin;
-  params.voxel = grid.voxel;
-  const Plan made = plan(params, context.profile()).value();
-  std::vector<std::uint32_t> materials = mesh.materials;
-  materials.resize(mesh.triangles());
-  const std::vector<std::string> names{"colour", "counters"};
-  const std::vector<float> positions(mesh.positions.begin(), mesh.positions.end()), white(8, 1.0f);
-  std::vector<Bytes> out = run_bytes(context, made,
-                                     {{"positions", encode(Format::f32x1, positions, context.real64())},
-                                      {"indices", bytes_of(mesh.indices)},
-                                      {"triangle_materials", bytes_of(materials)},
-                                      {"materials", encode(Format::f32x4, white, context.real64())}},
-                                     names);
-  Voxelized result;
-  for (std::size_t i = 0; i < names.size(); ++i) result.bytes[names[i]] = std::move(out[i]);
-  std::memcpy(result.counters.data(), result.bytes["counters"].data(), sizeof result.counters);
-  return result;
-}
-
-TEST(Voxelize, VerticesOnTheDeviceAreRoundedThere) {
-  VoxelGrid grid = unit_grid(32);
-  grid.origin = {-3.25, 100.5, 0.0};
-  grid.voxel = 0.25;
-  Mesh mesh = cases::icosphere({0.75, 104.5, 4.0}, 3.5, 3);
-  for (double& c : mesh.positions) c = std::floor(c * 65536) / 65536;  // multiples of 2^-14 voxel: rounded alike
-  const VoxelTriangles triangles = prepare(mesh, grid);
-  const VoxelizeParams params = voxelize_params(grid, triangles);
-  const std::vector<char> set = occupied(params, voxelize(test_context(test_devices()[0]), params, triangles));
-  const double nan = std::nan("");
-  mesh.add({1, 1, 1, 2, 2, nan, 1, 2, 2});
-  mesh.add({1, 1, 1, 2, 2, 1e30, 1, 2, 2});
-  mesh.add({50, 1, 1, 50, 2, 1, 50, 2, 2});
-  mesh.indices.insert(mesh.indices.end(), {0, 1, 0xfffffff0u});
-  for (const std::string& device : test_devices()) {
-    const Voxelized result = voxelize_there(test_context(device), mesh, grid, params);
-    EXPECT_EQ(different(occupied(params, result), set), 0u) << device;
-    EXPECT_EQ(result.count(VoxelizeCount::not_finite), 1u) << device;
-    EXPECT_EQ(result.count(VoxelizeCount::bad_index), 1u) << device;
-    EXPECT_EQ(result.count(VoxelizeCount::far), 2u) << device;  // 50 - (-3.25) is 213 voxels, beyond 96
-  }
-}
-
 TEST(Voxelize, DilatedCoversMoreThanConservative) {
   const VoxelGrid grid = unit_grid(32);
   Mesh mesh;

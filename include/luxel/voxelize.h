@@ -120,7 +120,9 @@ struct VoxelizeParams {
   int fragments = 0;             // capacity of `fragments`; 0: no list
   int texels = 0;                // words in `texels` (2^28 at most); 0: no textures, nothing of them is bound
 
-  // Vertices in a device buffer, in float, which are rounded there: off by up to 2^-24 of a coordinate.
+  // Vertices in a device buffer, in float, which are rounded there: along each axis off by at most 2^-17 voxel, 5 2^-24 of
+  // the coordinate in the grid, and what the floats had lost before. Nothing is clipped: coordinates in the grid from -4096
+  // to 6144 voxels are taken, triangles that reach beyond are left out (VoxelizeCount::far).
   bool device_vertices = false;  // read `positions` and `indices` in place of `triangles`
   bool device_materials = false; // and `triangle_materials`; else all are 0
   int vertices = 0;              // in `positions`, 0..2^28
@@ -137,9 +139,10 @@ enum class VoxelizeCount {
   fragments,   // needed: pairs of voxel and triangle (0 where no list is asked for)
   occupied,    // voxels
   saturated,   // times that a count wrapped (moving_average); exact merging holds 2^27 triangles a voxel
-  not_finite,  // device vertices: triangles skipped for a NaN or an infinity
+  not_finite,  // device vertices: triangles skipped for a NaN or an infinity, also of 65536 times a coordinate in the grid
   bad_index,   // device vertices: triangles skipped for an index beyond the vertices
-  far          // device vertices: triangles skipped because they reach beyond -2..3 grids
+  far          // device vertices: triangles left out because they reach beyond -4096..6144 voxels, though their bounds meet
+               // the grid: as many may be missing from it
 };
 
 /// Resources of the plan: read `triangles` (VoxelTriangles::records), `materials` (f32x4: linear base colour 0..1 and
@@ -147,12 +150,13 @@ enum class VoxelizeCount {
 /// coverage, [z][y][x]; occupied where coverage is above 0), `normal` (mean of unit normals, its length carries the
 /// spread; unorm8: n/2 + 1/2) and `emission` where asked for, `bricks` (u32: touched bricks in ascending order, x + (y + z
 /// bricks_y) bricks_x; as many as `counters` says; toroidal: of a grid that begins at the
-/// multiples of 8 voxels below the window and is 8 voxels larger), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any order) where
-/// asked for, `counters` (16 u32, see VoxelizeCount). With textures: `uvs` (f32x1), `texture_table` (u32, 8 words for each
-/// material) and `texels` (u32), sampled at the centroid of the triangle's part in the voxel. With device vertices, in place of `triangles`: `positions` (f32x1, x, y,
-/// z of each vertex), `indices` (u32, three a triangle) and `triangle_materials` (u32). Coverage is the opacity's mean, never below a step of unorm8 or of
-/// 2^-14. With `over`: read `under_colour` (`under_normal`, `under_emission`: the static volumes), `left_bricks` and
-/// `left_counters`: `bricks` and `counters` of the last time (a third word 0: none), which must be other memory than this
+/// multiples of 8 voxels below the window and is 8 voxels larger), `fragments` (u32 x 4: x, y, z, triangle of the mesh; in any
+/// order) where asked for, `counters` (16 u32, see VoxelizeCount). With textures: `uvs` (f32x1, VoxelTriangles::uvs),
+/// `texture_table` (u32, 8 words for each material) and `texels` (u32), sampled at the centroid of the triangle's part in the
+/// voxel. With device vertices, in place of `triangles`: `positions` (f32x1, x, y, z of each vertex), `indices` (u32, three a
+/// triangle) and `triangle_materials` (u32); `uvs` holds u, v of each vertex. Coverage is the opacity's mean, never below a
+/// step of unorm8 or of 2^-14. With `over`: read `under_colour` (`under_normal`, `under_emission`: the static volumes),
+/// `left_bricks` and `left_counters`: `bricks` and `counters` of the last time (a third word 0: none), which must be other memory than this
 /// time's; the volumes hold the static ones, or what the last time made of them. Errors: invalid_argument, naming field, value and range.
 Status validate(const VoxelizeParams& params);
 

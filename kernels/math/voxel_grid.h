@@ -11,7 +11,7 @@
 #define COUNT_SATURATED 5   // times that a voxel's mean lost its count (moving_average)
 #define COUNT_NOT_FINITE 6  // triangles of device vertices: with a NaN or an infinity
 #define COUNT_BAD_INDEX 7   // with an index beyond the vertices
-#define COUNT_FAR 8         // beyond -2 or 3 grids
+#define COUNT_FAR 8         // beyond what the integers hold, though their bounds meet the grid
 
 FN ivec3 blocks_of(ivec3 extent, int side) { return (extent + (side - 1)) / side; }
 FN int linear_of(ivec3 p, ivec3 extent) { return (p.z * extent.y + p.y) * extent.x + p.x; }

@@ -1,5 +1,9 @@
-// Triangle records from vertices in float: g = (position - origin) scale, rounded to 2^-16 voxel. In float this is off by
-// 2^-24 of |g|, and by what the positions themselves lost. What cannot be taken becomes a point outside, and is counted.
+// Triangle records from vertices in float: g = (position - origin) scale, rounded to 2^-16 voxel. Five operations in float
+// are off by 2^-24 of |g| each at most, and the positions themselves have lost something. What cannot be taken becomes a
+// point outside; it is counted where it may touch the grid.
+
+#define LEAST (-4096.0f * 65536.0f)  // coordinates that the exact tests hold (triangle_box.h), whatever the grid
+#define MOST (6144.0f * 65536.0f)
 
 FN float in_units(float v, float origin, float rest, float scale) { return floor((v - origin - rest) * scale + 0.5f); }
 
@@ -23,9 +27,21 @@ FN void put(CTX, int at, ivec3 v) {
     store(records, at + 2, v.z);
 }
 
+#if TEXTURED
+FN float finite_or_0(float v) { return v - v == 0.0f ? v : 0.0f; }
+FN void put_uv(CTX, int at, int vertex) {
+    for (int k = 0; k < 2; ++k)
+        store(record_uvs, at + k, vertex < 0 ? 0.0f : finite_or_0(load(vertex_uvs, 2 * vertex + k)));
+}
+#endif
+
 FN void round_triangle(CTX, int t) {
     ivec3 v[3];
-    UNROLL for (int i = 0; i < 3; ++i) v[i] = ivec3(-65536 * 4, -65536 * 4, -65536 * 4);
+    int vertex[3];
+    UNROLL for (int i = 0; i < 3; ++i) {
+        v[i] = ivec3(-65536 * 4, -65536 * 4, -65536 * 4);
+        vertex[i] = -1;
+    }
     const uint a = load(indices, 3 * t);
     const uint b = load(indices, 3 * t + 1);
     const uint c = load(indices, 3 * t + 2);
@@ -38,10 +54,17 @@ FN void round_triangle(CTX, int t) {
         const vec3 r = corner(ctx, int(c));
         if (!finite(p) || !finite(q) || !finite(r)) {
             atomic_add(counters, COUNT_NOT_FINITE, 1u);
-        } else if (!within(p, params.low, params.high) || !within(q, params.low, params.high) ||
-                   !within(r, params.low, params.high)) {
-            atomic_add(counters, COUNT_FAR, 1u);
+        } else if (!within(p, LEAST, MOST) || !within(q, LEAST, MOST) || !within(r, LEAST, MOST)) {
+            const vec3 extent = 65536.0f * vec3(float(params.width), float(params.height), float(params.depth));
+            const vec3 low = min(p, min(q, r));
+            const vec3 high = max(p, max(q, r));
+            if (low.x <= extent.x && low.y <= extent.y && low.z <= extent.z && high.x >= 0.0f && high.y >= 0.0f &&
+                high.z >= 0.0f)
+                atomic_add(counters, COUNT_FAR, 1u);
         } else {
+            vertex[0] = int(a);
+            vertex[1] = int(b);
+            vertex[2] = int(c);
             v[0] = ivec3(int(p.x), int(p.y), int(p.z));
             v[1] = ivec3(int(q.x), int(q.y), int(q.z));
             v[2] = ivec3(int(r.x), int(r.y), int(r.z));
@@ -54,10 +77,16 @@ FN void round_triangle(CTX, int t) {
             const ivec3 other = v[k];
             v[k] = v[k + 1];
             v[k + 1] = other;
+            const int other_vertex = vertex[k];
+            vertex[k] = vertex[k + 1];
+            vertex[k + 1] = other_vertex;
             turned = 1 - turned;
         }
     }
     UNROLL for (int i = 0; i < 3; ++i) put(ctx, t * TRIANGLE_WORDS + 3 * i, v[i]);
+#if TEXTURED
+    UNROLL for (int i = 0; i < 3; ++i) put_uv(ctx, 6 * t + 2 * i, vertex[i]);
+#endif
 #if MATERIALS
     const int material = int(load(material_list, t));
 #else

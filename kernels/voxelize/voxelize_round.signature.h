@@ -1,7 +1,9 @@
 /* BUILD
    math: voxel_grid
-   module plain: MATERIALS=0
-   module materials: MATERIALS=1
+   module plain: MATERIALS=0 TEXTURED=0
+   module materials: MATERIALS=1 TEXTURED=0
+   module textured: MATERIALS=0 TEXTURED=1
+   module textured_materials: MATERIALS=1 TEXTURED=1
 */
 #define PARAMETERS(_) \
     _(int, triangles) \
@@ -13,17 +15,26 @@
     _(float, rest_y) \
     _(float, rest_z) \
     _(float, scale)     /* units of 2^-16 voxel in a scene unit */ \
-    _(float, low)       /* least and greatest coordinate that is taken, in these units */ \
-    _(float, high) \
+    _(int, width)       /* voxels of the grid */ \
+    _(int, height) \
+    _(int, depth) \
     _(int, stride)      /* invocations */
 #if MATERIALS
 #define CHOSEN(_) _(READ, 4, uint, material_list)
 #else
 #define CHOSEN(_)
 #endif
+#if TEXTURED
+#define MAPPED(_) \
+    _(READ, 5, float, vertex_uvs) \
+    _(WRITE, 6, float, record_uvs)
+#else
+#define MAPPED(_)
+#endif
 #define BINDINGS(_) \
     _(READ, 0, float, positions) \
     _(READ, 1, uint, indices) \
     _(WRITE, 2, int, records) \
     _(UPDATE, 3, uint, counters) \
-    CHOSEN(_)
+    CHOSEN(_) \
+    MAPPED(_)
