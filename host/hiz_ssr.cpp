@@ -1,4 +1,5 @@
 #include <luxel/hiz_ssr.h>
+#include <luxel/cone_trace.h>
 
 #include <algorithm>
 #include <cfloat>
@@ -14,10 +15,17 @@ constexpr double endless = 1e18;  // a length that the kernel's products stay fi
 
 bool finite_above(double v, double low) { return v > low && v <= FLT_MAX; }
 
+bool climbs(const HizSsrParams& p) { return p.variant == SsrVariant::hiz || p.variant == SsrVariant::stochastic; }
+
 int looks_needed(const HizSsrParams& p) {
   if (p.variant == SsrVariant::linear) return (p.steps + 1) * (p.refinements + 2);
   // Cells crossed on each level halve; each is entered once from below, and left downwards once.
   return 4 * (p.width + p.height) + 64;
+}
+
+std::size_t texels(const MipBuildParams& m, int level) {
+  const auto e = mip_extent(m, level);
+  return static_cast<std::size_t>(e[0]) * e[1];
 }
 
 Status check_projection(const HizSsrParams& p) {
@@ -30,6 +38,24 @@ Status check_projection(const HizSsrParams& p) {
     if (!(v >= 1e-3 && v <= 1e9)) return out_of_range(field, v, "1e-3..1e9 pixels");
   LUXEL_CHECK(check_range("HizSsrParams.centre_x", p.centre_x, -1e9, 1e9));
   return check_range("HizSsrParams.centre_y", p.centre_y, -1e9, 1e9);
+}
+
+Status check_shading(const HizSsrParams& p) {
+  const bool stochastic = p.variant == SsrVariant::stochastic;
+  if (p.rays > 0 && (stochastic || p.shade))
+    return out_of_range("HizSsrParams.rays", p.rays, stochastic ? "0 for variant stochastic" : "0 with shade");
+  LUXEL_CHECK(check_range("HizSsrParams.rays_per_pixel", p.rays_per_pixel, 1, stochastic ? 4 : 1));
+  if (p.half_resolution && !stochastic)
+    return out_of_range("HizSsrParams.half_resolution", "true", "false but for variant stochastic");
+  LUXEL_CHECK(check_range("HizSsrParams.reuse", p.reuse, 0, 4));
+  LUXEL_CHECK(check_range("HizSsrParams.seed", p.seed, 0, 0xffffff));
+  const int most = p.width == 1 && p.height == 1 ? 1 : mip_levels(hiz_ssr_colours({p.width, p.height})) + 1;
+  LUXEL_CHECK(check_range("HizSsrParams.colour_levels", p.colour_levels, 0, most));
+  LUXEL_CHECK(check_range("HizSsrParams.prefilter", p.prefilter, 0.0, 16.0));
+  for (const double v : p.environment) LUXEL_CHECK(check_range("HizSsrParams.environment", v, 0.0, 1e30));
+  if (!p.shade && (p.fallback || p.factor))
+    return out_of_range(p.fallback ? "HizSsrParams.fallback" : "HizSsrParams.factor", "true", "false without shade");
+  return check_range("HizSsrParams.split_sum_size", p.split_sum_size, 2, 1024);
 }
 
 }  // namespace
@@ -52,24 +78,53 @@ MipBuildParams hiz_ssr_pyramid(const HizSsrParams& p) {
 }
 
 int hiz_ssr_levels(const HizSsrParams& p) {
-  if (p.variant != SsrVariant::hiz || p.levels == 1 || (p.width == 1 && p.height == 1)) return 1;
+  if (!climbs(p) || p.levels == 1 || (p.width == 1 && p.height == 1)) return 1;
   return mip_levels(hiz_ssr_pyramid(p)) + 1;
 }
 
-std::size_t hiz_ssr_level_offset(const HizSsrParams& p, int level) {
-  const MipBuildParams m = hiz_ssr_pyramid(p);
+MipBuildParams hiz_ssr_colours(const HizSsrParams& p) {
+  MipBuildParams m;
+  m.width = p.width;
+  m.height = p.height;
+  m.variant = MipVariant::isotropic;
+  m.format = Format::f32x4;
+  m.levels = std::max(p.colour_levels - 1, 0);
+  return m;
+}
+
+int hiz_ssr_colour_levels(const HizSsrParams& p) {
+  if (p.colour_levels == 1 || (p.width == 1 && p.height == 1)) return 1;
+  return mip_levels(hiz_ssr_colours(p)) + 1;
+}
+
+namespace {
+
+// Each level begins at a multiple of 64 texels.
+std::size_t texels_before(const MipBuildParams& m, int level) {
   std::size_t at = 0;
-  for (int l = 0; l < level; ++l) {
-    const auto e = mip_extent(m, l);
-    at += (static_cast<std::size_t>(e[0]) * e[1] + 63) / 64 * 64;
-  }
+  for (int l = 0; l < level; ++l) at += (texels(m, l) + 63) / 64 * 64;
   return at;
 }
 
+}  // namespace
+
+std::size_t hiz_ssr_level_offset(const HizSsrParams& p, int level) { return texels_before(hiz_ssr_pyramid(p), level); }
+std::size_t hiz_ssr_colour_offset(const HizSsrParams& p, int level) { return texels_before(hiz_ssr_colours(p), level); }
+
 std::size_t hiz_ssr_depth_texels(const HizSsrParams& p) {
   const int last = hiz_ssr_levels(p) - 1;
-  const auto e = mip_extent(hiz_ssr_pyramid(p), last);
-  return hiz_ssr_level_offset(p, last) + static_cast<std::size_t>(e[0]) * e[1];
+  return hiz_ssr_level_offset(p, last) + texels(hiz_ssr_pyramid(p), last);
+}
+
+std::size_t hiz_ssr_colour_texels(const HizSsrParams& p) {
+  const int last = hiz_ssr_colour_levels(p) - 1;
+  return hiz_ssr_colour_offset(p, last) + texels(hiz_ssr_colours(p), last);
+}
+
+std::size_t hiz_ssr_rays(const HizSsrParams& p) {
+  if (p.rays > 0) return static_cast<std::size_t>(p.rays);
+  const int scale = p.half_resolution ? 2 : 1, each = p.variant == SsrVariant::stochastic ? p.rays_per_pixel : 1;
+  return static_cast<std::size_t>((p.width + scale - 1) / scale) * ((p.height + scale - 1) / scale) * each;
 }
 
 Status validate(const HizSsrParams& p) {
@@ -77,7 +132,7 @@ Status validate(const HizSsrParams& p) {
   LUXEL_CHECK(check_range("HizSsrParams.height", p.height, 1, 65535));
   if (static_cast<double>(p.width) * p.height > 1 << 28)
     return out_of_range("HizSsrParams.height", p.height, "width x height of at most 268435456");
-  LUXEL_CHECK(check_range("HizSsrParams.variant", static_cast<int>(p.variant), 0, 2));
+  LUXEL_CHECK(check_range("HizSsrParams.variant", static_cast<int>(p.variant), 0, 3));
   LUXEL_CHECK(check_range("HizSsrParams.depth", static_cast<int>(p.depth), 0, 2));
   LUXEL_CHECK(check_projection(p));
   LUXEL_CHECK(check_range("HizSsrParams.rays", p.rays, 0, 1 << 26));
@@ -96,63 +151,210 @@ Status validate(const HizSsrParams& p) {
   LUXEL_CHECK(check_range("HizSsrParams.fade_edge", p.fade_edge, 0.0, 0.5));
   LUXEL_CHECK(check_range("HizSsrParams.fade_distance", p.fade_distance, 0.0, 1.0));
   LUXEL_CHECK(check_range("HizSsrParams.fade_thickness", p.fade_thickness, 0.0, 1.0));
-  return check_range("HizSsrParams.fade_back", p.fade_back, 0.0, 1.0);
+  LUXEL_CHECK(check_range("HizSsrParams.fade_back", p.fade_back, 0.0, 1.0));
+  return check_shading(p);
 }
 
-Result<Plan> plan(const HizSsrParams& p, const Profile& profile) {
-  LUXEL_CHECK(validate(p));
-  Planner planner("hiz_ssr");
-  const std::size_t pixels = static_cast<std::size_t>(p.width) * p.height;
-  const std::size_t rays = p.rays > 0 ? static_cast<std::size_t>(p.rays) : pixels;
-  const auto list = [&](const char* name, Format format, std::size_t count, bool written) {
+namespace {
+
+constexpr int tile = 8;               // traced pixels along a side (kernels/hiz_ssr)
+constexpr int spreads = 65;           // entries of the table over roughness 0..1
+constexpr std::uint32_t most_invocations = 1u << 20;  // of a launch that strides over a list
+
+class Reflecting {
+ public:
+  Reflecting(const HizSsrParams& params, const Profile& profile)
+      : p_(params), profile_(profile), planner_("hiz_ssr"), pixels_(static_cast<std::size_t>(p_.width) * p_.height) {
+    const auto& block = profile_.pixels.workgroup;
+    line_ = {block[0] * block[1] * block[2], 1, 1};
+    depth_ = list("depth", Format::f32x1, hiz_ssr_depth_texels(p_), false);
+    source_ = p_.rays > 0 ? list("rays", Format::f32x4, 2 * hiz_ssr_rays(p_), false)
+                          : list("normals", Format::f32x4, pixels_, false);
+    hits_ = list("hits", Format::f32x4, hiz_ssr_rays(p_), true);
+    paths_ = list("paths", Format::f32x4, hiz_ssr_rays(p_), true);
+    if (stochastic()) directions_ = list("directions", Format::f32x4, hiz_ssr_rays(p_), true);
+    if (p_.count) counters_ = list("counters", Format::u32, ssr_outcomes, true);
+    if (p_.shade) radiance_ = list("radiance", Format::f32x4, pixels_, true);
+    const double near_w = 1 / p_.near_plane, far_w = p_.far_plane > 0 ? 1 / p_.far_plane : 0;
+    scale_ = near_w - far_w;
+    offset_ = far_w;
+  }
+
+  Result<Plan> plan() && {
+    if (p_.rays == 0) classify();
+    trace();
+    if (p_.shade) resolve();
+    return std::move(planner_).finish();
+  }
+
+ private:
+  using Slots = std::vector<std::pair<std::string_view, Slot>>;
+  using Three = std::array<std::uint32_t, 3>;
+
+  bool stochastic() const { return p_.variant == SsrVariant::stochastic; }
+  int scale() const { return p_.half_resolution ? 2 : 1; }
+  int each() const { return stochastic() ? p_.rays_per_pixel : 1; }
+  int depth() const { return static_cast<int>(p_.depth); }
+  static std::uint32_t parts(int n, int size) { return static_cast<std::uint32_t>((n + size - 1) / size); }
+
+  Slot list(const char* name, Format format, std::size_t count, bool written) {
     Resource r{name};
     r.format = format;
     r.bytes = count * bytes_per_pixel(format);
     r.written = written;
-    return planner.resource(r);
-  };
-  std::vector<std::pair<std::string_view, Slot>> slots;
-  slots.emplace_back("depth", list("depth", Format::f32x1, hiz_ssr_depth_texels(p), false));
-  slots.emplace_back("source", p.rays > 0 ? list("rays", Format::f32x4, 2 * rays, false)
-                                          : list("normals", Format::f32x4, pixels, false));
-  slots.emplace_back("hits", list("hits", Format::f32x4, rays, true));
-  slots.emplace_back("paths", list("paths", Format::f32x4, rays, true));
-  if (p.count) slots.emplace_back("counters", list("counters", Format::u32, ssr_outcomes, true));
+    return planner_.resource(r);
+  }
 
-  const double near_w = 1 / p.near_plane, far_w = p.far_plane > 0 ? 1 / p.far_plane : 0;
-  std::string module = p.count ? "count_" : profile.texels ? "texels_" : "";
-  module += p.rays > 0 ? "rays" : "pixels";
-  const auto& block = profile.pixels.workgroup;
-  const std::uint32_t line = block[0] * block[1] * block[2];
-  using Three = std::array<std::uint32_t, 3>;
-  const Three invocations = p.rays > 0 ? Three{static_cast<std::uint32_t>(p.rays), 1, 1}
-                                       : Three{static_cast<std::uint32_t>(p.width), static_cast<std::uint32_t>(p.height), 1};
-  planner.pass("hiz_ssr", module, "hiz_ssr rays", invocations, p.rays > 0 || p.height == 1 ? Three{line, 1, 1} : block,
-               {{"width", p.width},
-                {"height", p.height},
-                {"rays", p.rays},
-                {"top", hiz_ssr_levels(p) - 1},
-                {"first", p.start_level},
-                {"step_cap", p.max_steps > 0 ? p.max_steps : looks_needed(p)},
-                {"steps", p.steps},
-                {"refinements", p.refinements},
-                {"focal_x", p.focal_x},
-                {"focal_y", p.focal_y},
-                {"centre_x", p.centre_x},
-                {"centre_y", p.centre_y},
-                {"depth_scale", near_w - far_w},
-                {"depth_offset", far_w},
-                {"nearest", p.near_plane},
-                {"reach", p.max_distance > 0 ? p.max_distance : endless},
-                {"thickness", std::min(p.thickness, 1e30)},
-                {"bias", p.bias},
-                {"cutoff", p.cutoff},
-                {"fade_edge", p.fade_edge},
-                {"fade_distance", p.fade_distance},
-                {"fade_thickness", p.fade_thickness},
-                {"fade_back", p.fade_back}},
-               {{"METHOD", static_cast<int>(p.variant)}, {"DEPTH", static_cast<int>(p.depth)}}, slots);
-  planner.cost(0, static_cast<double>(hiz_ssr_depth_texels(p) * 4 + rays * (p.rays > 0 ? 64 : 48)));
+  // Invocations for `count` pieces of work, whole workgroups, and how far apart those of one invocation are.
+  Three strided(std::size_t count) const {
+    const std::uint32_t most = std::max(most_invocations / line_[0], 1u) * line_[0];
+    const std::uint32_t whole = static_cast<std::uint32_t>(std::min<std::size_t>((count + line_[0] - 1) / line_[0] * line_[0], most));
+    return {whole, 1, 1};
+  }
+
+  void classify() {
+    const int side = tile * scale();
+    const std::uint32_t x = parts(p_.width, side), y = parts(p_.height, side);
+    tiles_ = static_cast<std::size_t>(x) * y;
+    const Slot flags = planner_.scratch(Format::u32, tiles_);
+    list_ = planner_.scratch(Format::u32, tiles_ + 1);
+    Slots slots{{"depth", depth_}, {"normals", source_}, {"flags", flags}, {"hits", hits_}, {"paths", paths_}};
+    if (p_.shade) slots.emplace_back("radiance", radiance_);
+    planner_.pass("hiz_ssr_tiles", p_.shade ? "shaded" : "hits", "hiz_ssr tiles", {x, y, 1}, {8, 4, 1},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"scale", scale()},
+                   {"each", each()},
+                   {"depth_scale", scale_},
+                   {"depth_offset", offset_},
+                   {"cutoff", p_.cutoff}},
+                  {{"DEPTH", depth()}}, slots);
+    planner_.pass("hiz_ssr_list", "u32", "hiz_ssr list of tiles", {parts(static_cast<int>(tiles_), 64), 1, 1}, {8, 1, 1},
+                  {{"tiles", static_cast<double>(tiles_)}}, {}, {{"flags", flags}, {"tile_list", list_}});
+    planner_.cost(0, static_cast<double>(pixels_) * 20);
+  }
+
+  void trace() {
+    Slots slots{{"depth", depth_}, {"source", source_}, {"hits", hits_}, {"paths", paths_}};
+    if (p_.count) slots.emplace_back("counters", counters_);
+    if (p_.rays == 0) slots.emplace_back("tile_list", list_);
+    if (stochastic()) slots.emplace_back("directions", directions_);
+    std::string module = p_.count ? "count_" : profile_.texels ? "texels_" : "";
+    module += p_.rays > 0 ? "rays" : stochastic() ? "stochastic" : "pixels";
+    const Three invocations = p_.rays > 0 ? Three{static_cast<std::uint32_t>(p_.rays), 1, 1}
+                                          : strided(tiles_ * tile * tile * static_cast<std::size_t>(each()));
+    planner_.pass("hiz_ssr", module, "hiz_ssr rays", invocations, line_,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"rays", p_.rays},
+                   {"each", each()},
+                   {"scale", scale()},
+                   {"seed", p_.seed},
+                   {"stride", invocations[0]},
+                   {"top", hiz_ssr_levels(p_) - 1},
+                   {"first", p_.start_level},
+                   {"step_cap", p_.max_steps > 0 ? p_.max_steps : looks_needed(p_)},
+                   {"steps", p_.steps},
+                   {"refinements", p_.refinements},
+                   {"focal_x", p_.focal_x},
+                   {"focal_y", p_.focal_y},
+                   {"centre_x", p_.centre_x},
+                   {"centre_y", p_.centre_y},
+                   {"depth_scale", scale_},
+                   {"depth_offset", offset_},
+                   {"nearest", p_.near_plane},
+                   {"reach", p_.max_distance > 0 ? p_.max_distance : endless},
+                   {"thickness", std::min(p_.thickness, 1e30)},
+                   {"bias", p_.bias},
+                   {"cutoff", p_.cutoff},
+                   {"fade_edge", p_.fade_edge},
+                   {"fade_distance", p_.fade_distance},
+                   {"fade_thickness", p_.fade_thickness},
+                   {"fade_back", p_.fade_back}},
+                  {{"METHOD", stochastic() ? 0 : static_cast<int>(p_.variant)}, {"DEPTH", depth()}}, slots);
+    planner_.cost(0, static_cast<double>(hiz_ssr_depth_texels(p_) * 4 + hiz_ssr_rays(p_) * 48));
+  }
+
+  void resolve() {
+    const Slot colour = list("colour", Format::f32x4, hiz_ssr_colour_texels(p_), false);
+    Slots slots{{"depth", depth_}, {"normals", source_}, {"tile_list", list_}, {"hits", hits_},
+                {"paths", paths_}, {"colour", colour},   {"radiance", radiance_}};
+    if (stochastic()) {
+      slots.emplace_back("directions", directions_);
+    } else {
+      std::vector<double> exact, rounded;
+      for (int i = 0; i < spreads; ++i) exact.push_back(2 * std::tan(specular_aperture(i / (spreads - 1.0)) / 2));
+      for (const double v : exact) rounded.push_back(static_cast<float>(v));
+      slots.emplace_back("spreads", planner_.table(rounded, exact));
+    }
+    if (p_.fallback) slots.emplace_back("fallback", list("fallback", Format::f32x4, pixels_, false));
+    if (p_.factor) {
+      slots.emplace_back("specular", list("specular", Format::f32x4, pixels_, false));
+      slots.emplace_back("split_sum",
+                         list("split_sum", Format::f32x2, static_cast<std::size_t>(p_.split_sum_size) * p_.split_sum_size, false));
+    }
+    std::string module = stochastic() ? "stochastic" : "mirror";
+    if (p_.fallback) module += "_fallback";
+    if (p_.factor) module += "_factor";
+    const Three invocations = strided(tiles_ * tile * tile * static_cast<std::size_t>(scale() * scale()));
+    planner_.pass("hiz_ssr_resolve", module, "hiz_ssr resolve", invocations, line_,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"each", each()},
+                   {"scale", scale()},
+                   {"reuse", stochastic() ? p_.reuse : 0},
+                   {"stride", invocations[0]},
+                   {"top", hiz_ssr_colour_levels(p_) - 1},
+                   {"table_size", p_.split_sum_size},
+                   {"focal_x", p_.focal_x},
+                   {"focal_y", p_.focal_y},
+                   {"centre_x", p_.centre_x},
+                   {"centre_y", p_.centre_y},
+                   {"depth_scale", scale_},
+                   {"depth_offset", offset_},
+                   {"cutoff", p_.cutoff},
+                   {"prefilter", p_.prefilter},
+                   {"environment_r", p_.environment[0]},
+                   {"environment_g", p_.environment[1]},
+                   {"environment_b", p_.environment[2]}},
+                  {{"DEPTH", depth()}}, slots);
+    planner_.cost(0, static_cast<double>(hiz_ssr_colour_texels(p_) * 16 + pixels_ * 36 + hiz_ssr_rays(p_) * 32));
+  }
+
+  const HizSsrParams& p_;
+  const Profile& profile_;
+  Planner planner_;
+  const std::size_t pixels_;
+  std::size_t tiles_ = 0;
+  double scale_ = 0, offset_ = 0;
+  Three line_{};
+  Slot depth_, source_, hits_, paths_, directions_, counters_, radiance_, list_;
+};
+
+}  // namespace
+
+Result<Plan> plan(const HizSsrParams& p, const Profile& profile) {
+  LUXEL_CHECK(validate(p));
+  return Reflecting(p, profile).plan();
+}
+
+Status validate(const SplitSumParams& p) {
+  LUXEL_CHECK(check_range("SplitSumParams.size", p.size, 2, 1024));
+  return check_range("SplitSumParams.samples", p.samples, 1, 65536);
+}
+
+Result<Plan> plan(const SplitSumParams& p, const Profile& profile) {
+  LUXEL_CHECK(validate(p));
+  Planner planner("hiz_ssr");
+  Resource table{"split_sum"};
+  table.format = Format::f32x2;
+  table.bytes = static_cast<std::size_t>(p.size) * p.size * 8;
+  table.written = true;
+  const Slot to = planner.resource(table);
+  const std::uint32_t n = static_cast<std::uint32_t>(p.size);
+  planner.pass("hiz_ssr_split_sum", "f32x2", "hiz_ssr split sum", {n, n, 1}, profile.pixels.workgroup,
+               {{"size", p.size}, {"samples", p.samples}}, {}, {{"split_sum", to}});
+  planner.cost(static_cast<double>(p.size) * p.size * p.samples * 110, static_cast<double>(table.bytes));
   return std::move(planner).finish();
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -130,6 +131,46 @@ TEST(HizSsr, EveryDeviceGivesTheSameBits) {
       }
 }
 
+TEST(HizSsr, EveryDeviceShadesWithTheSameBits) {
+  const Values stored = height_field(71, 43, 5);
+  SsrColours colours;
+  for (std::size_t i = 0; i < 4 * stored.size(); ++i) {
+    colours.colour.push_back(static_cast<float>(0.01 * static_cast<double>(i % 397)));
+    colours.fallback.push_back(0.125);
+    colours.specular.push_back(0.0625 * static_cast<double>(i % 4));
+  }
+  colours.split_sum = split_sum_table(test_context("cpu"), 8, 64).value();
+  Values normals;
+  for (int i = 0; i < 71 * 43; ++i)
+    for (const double v : {0.1 * (i % 3), 0.6, 0.7, 0.05 * (i / 71 % 21)}) normals.push_back(static_cast<float>(v));
+  for (const SsrVariant v : {SsrVariant::hiz, SsrVariant::stochastic})
+    for (const bool more : {false, true}) {
+      HizSsrParams p = ssr_params(71, 43, v);
+      p.shade = true;
+      p.thickness = 0.5;
+      p.fade_back = 0.25;
+      p.fallback = p.factor = more;
+      p.split_sum_size = 8;
+      p.seed = more ? 3 : 0;
+      if (v == SsrVariant::stochastic) p.half_resolution = more, p.rays_per_pixel = more ? 3 : 1, p.reuse = more ? 2 : 0;
+      const auto expected = follow(test_context("cpu"), p, stored, normals, colours);
+      ASSERT_TRUE(expected) << expected.status().message();
+      EXPECT_GT(*std::max_element(expected.value().radiance.begin(), expected.value().radiance.end()), 0.1);
+      for (const std::string& device : test_devices()) {
+        EXPECT_EQ(count_different(split_sum_table(test_context(device), 8, 64).value(), colours.split_sum), 0) << device;
+        const auto r = follow(test_context(device), p, stored, normals, colours);
+        ASSERT_TRUE(r) << r.status().message();
+        for (std::size_t i = 0; i < r.value().directions.size(); ++i) {  // there are none where there is no ray
+          const SsrOutcome outcome = expected.value().outcome(i / 4);
+          if (outcome == SsrOutcome::none || outcome == SsrOutcome::degenerate) continue;
+          ASSERT_TRUE(same(r.value().directions[i], expected.value().directions[i])) << device;
+        }
+        EXPECT_EQ(count_different(r.value().hits, expected.value().hits), 0) << device;
+        EXPECT_EQ(count_different(r.value().radiance, expected.value().radiance), 0) << device;
+      }
+    }
+}
+
 TEST(HizSsr, AgreesWithTheExhaustiveWalkOnAlmostAllRays) {
   // Equal without any slack; the rest are ties by rounding (hiz_ssr_stability_test has none wrong).
   constexpr double least_float = 0.99, least_double = 0.999;
@@ -239,6 +280,21 @@ TEST(HizSsr, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refused([](P& p) { p.bias = 65; }), "HizSsrParams.bias is 65; expected 0..64");
   EXPECT_EQ(refused([](P& p) { p.cutoff = 3; }), "HizSsrParams.cutoff is 3; expected 0..2");
   EXPECT_EQ(refused([](P& p) { p.fade_edge = 1; }), "HizSsrParams.fade_edge is 1; expected 0..0.5");
+  EXPECT_EQ(refused([](P& p) { p.rays = 4, p.shade = true; }), "HizSsrParams.rays is 4; expected 0 with shade");
+  EXPECT_EQ(refused([](P& p) { p.rays = 4, p.variant = SsrVariant::stochastic; }),
+            "HizSsrParams.rays is 4; expected 0 for variant stochastic");
+  EXPECT_EQ(refused([](P& p) { p.rays_per_pixel = 2; }), "HizSsrParams.rays_per_pixel is 2; expected 1..1");
+  EXPECT_EQ(refused([](P& p) { p.half_resolution = true; }),
+            "HizSsrParams.half_resolution is true; expected false but for variant stochastic");
+  EXPECT_EQ(refused([](P& p) { p.reuse = 5; }), "HizSsrParams.reuse is 5; expected 0..4");
+  EXPECT_EQ(refused([](P& p) { p.seed = -1; }), "HizSsrParams.seed is -1; expected 0..16777215");
+  EXPECT_EQ(refused([](P& p) { p.colour_levels = 8; }), "HizSsrParams.colour_levels is 8; expected 0..7");
+  EXPECT_EQ(refused([](P& p) { p.prefilter = 17; }), "HizSsrParams.prefilter is 17; expected 0..16");
+  EXPECT_EQ(refused([](P& p) { p.environment[1] = -1; }), "HizSsrParams.environment is -1; expected 0..1e+30");
+  EXPECT_EQ(refused([](P& p) { p.fallback = true; }), "HizSsrParams.fallback is true; expected false without shade");
+  EXPECT_EQ(refused([](P& p) { p.split_sum_size = 1; }), "HizSsrParams.split_sum_size is 1; expected 2..1024");
+  EXPECT_EQ(validate(SplitSumParams{1, 4}).message(), "SplitSumParams.size is 1; expected 2..1024");
+  EXPECT_EQ(validate(SplitSumParams{4, 0}).message(), "SplitSumParams.samples is 0; expected 1..65536");
 }
 
 }  // namespace

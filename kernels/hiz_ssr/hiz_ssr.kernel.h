@@ -15,20 +15,6 @@
 #define STEPS 9
 #define HIDDEN_FLAG 16  // added to the outcome of a ray that passed behind a surface
 
-FN bool finite(vec4 v) {
-    const vec4 zero = v - v;
-    return zero.x + zero.y + zero.z + zero.w == 0.0f;
-}
-FN float dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-
-// v / |v|; zero where v is not finite or has no length.
-FN vec3 unit(vec3 v) {
-    const float most = max(abs(v.x), max(abs(v.y), abs(v.z)));
-    if (!finite(vec4(v.x, v.y, v.z, 0.0f)) || most < 1.0e-30f) return vec3(0.0f, 0.0f, 0.0f);
-    const vec3 u = v / most;
-    return u / sqrt(dot3(u, u));
-}
-
 FN float surface_at(CTX, int i) {
     return reciprocal_depth(load_pixel(depth, 0, i, 0), DEPTH, params.depth_scale, params.depth_offset);
 }
@@ -218,7 +204,7 @@ FN void none(CTX, int i, int outcome) {
     store(hits, i, vec4(0.0f));
     store(paths, i, vec4(0.0f, float(outcome), 0.0f, 0.0f));
 #if COUNT
-    atomic_add(counters, outcome, 1u);
+    if (outcome != NONE) atomic_add(counters, outcome, 1u);
 #endif
 }
 
@@ -239,24 +225,28 @@ KERNEL(hiz_ssr) {
         trace(ctx, i, p, w0, d, reach);
 }
 #else
-// Mirror rays of the pixels. The source holds a normal and a roughness a pixel. Rays start in front of the surface by the
-// slope of its reciprocal depth over `bias` pixels along both axes: a plane's pixels, each flat at the depth of its centre,
-// stand out of the plane by half a pixel's slope at most, so that from bias 1/2 on no plane hits itself. That holds while
-// the ray climbs faster than its lead shrinks with growing depth; a pixel where it does not is nearer to its plane's horizon
-// than the bias, and has no ray.
-KERNEL(hiz_ssr) {
-    const int x = invocation_x();
-    const int y = invocation_y();
-    if (x >= params.width || y >= params.height) return;
-    const int i = y * params.width + x;
-    const vec4 facing = load(source, i);
-    const float w = surface_at(ctx, i);
+// Rays of the pixels of the tiles in a list. The source holds a normal and a roughness a pixel. Rays start in front of the
+// surface by the slope of its reciprocal depth over `bias` pixels along both axes: a plane's pixels, each flat at the depth of
+// its centre, stand out of the plane by half a pixel's slope at most, so that from bias 1/2 on no plane hits itself. That holds
+// while the ray climbs faster than its lead shrinks with growing depth; a pixel where it does not is nearer to its plane's
+// horizon than the bias, and has no ray.
+FN void reflect_pixel(CTX, int x, int y, int k) {
+    const int traced_x = (params.width + params.scale - 1) / params.scale;
+    const int traced_y = (params.height + params.scale - 1) / params.scale;
+    if (x >= traced_x || y >= traced_y) return;
+    const int i = (k * traced_y + y) * traced_x + x;
+    // The first pixel of those that share a ray, or another by the seed.
+    const ivec2 at = ivec2(min(x * params.scale + params.seed % params.scale, params.width - 1),
+                           min(y * params.scale + params.seed / 2 % params.scale, params.height - 1));
+    const int pixel_index = at.y * params.width + at.x;
+    const vec4 facing = load(source, pixel_index);
+    const float w = surface_at(ctx, pixel_index);
     if (!is_surface(w) || !(facing.w < params.cutoff)) {
         none(ctx, i, NONE);
         return;
     }
     const vec3 n = unit(vec3(facing.x, facing.y, facing.z));
-    const vec2 p = vec2(float(x) + 0.5f, float(y) + 0.5f);
+    const vec2 p = vec2(float(at.x) + 0.5f, float(at.y) + 0.5f);
     // From the eye to the surface, at depth 1.
     const vec3 sight = vec3((p.x - params.centre_x) / params.focal_x, (params.centre_y - p.y) / params.focal_y, -1.0f);
     const float facing_away = dot3(n, sight);
@@ -266,11 +256,38 @@ KERNEL(hiz_ssr) {
     }
     const float slope = w * (abs(n.x / params.focal_x) + abs(n.y / params.focal_y)) / -facing_away;
     const float lift = params.bias * slope + w * 3.8147e-6f;
-    const vec3 mirrored = sight - 2.0f * facing_away * n;  // as long as `sight`
-    if (!(lift * -mirrored.z <= w)) {
-        none(ctx, i, DEGENERATE);
-        return;
+#if STOCHASTIC
+    // A direction of the lobe (math/ggx.h); the normals of a pixel's rays turn by even parts of the circle.
+    const float alpha = alpha_of(facing.w);
+    const uint seed = hashed(uint(pixel_index) ^ hashed(uint(params.seed)));
+    const float turn = fraction_of(seed) + float(k) / float(params.each);
+    const float wide_part = fraction_of(hashed(seed)) + 0.61803398875f * float(k);
+    const vec3 v = unit(vec3(-sight.x, -sight.y, -sight.z));
+    const vec3 a = tangent_to(n);
+    const vec3 b = cross3(n, a);
+    const vec3 local_v = vec3(dot3(v, a), dot3(v, b), dot3(v, n));
+    const vec3 h = ggx_normal(local_v, alpha, vec2(turn - floor(turn), wide_part - floor(wide_part)));
+    const vec3 normal = h.x * a + h.y * b + h.z * n;
+    const vec3 d = unit(2.0f * dot3(local_v, h) * normal - v);
+    const float density = ggx_density(h.z, h.x * h.x + h.y * h.y, alpha);
+    store(directions, i, vec4(d.x, d.y, d.z, ggx_pdf(local_v.z, density, alpha)));
+    // The lead is kept by a ray that climbs; one that leaves below the horizon of its surface meets it.
+    const bool climbs = dot3(n, d) > 0.0f && lift * -d.z * -facing_away <= w * dot3(n, d);
+#else
+    const vec3 d = unit(sight - 2.0f * facing_away * n);
+    const bool climbs = lift * -d.z * -facing_away <= w * dot3(n, d);
+#endif
+    if (climbs) trace(ctx, i, p, w + lift, d, params.reach);
+    else none(ctx, i, DEGENERATE);
+}
+
+KERNEL(hiz_ssr) {
+    const int side = TILE * params.scale;
+    const int tiles_x = (params.width + side - 1) / side;
+    const int count = int(load(tile_list, 0)) * params.each * (TILE * TILE);
+    for (int j = invocation_x(); j < count; j += params.stride) {
+        const int tile = int(load(tile_list, 1 + j / (TILE * TILE) / params.each));
+        reflect_pixel(ctx, tile % tiles_x * TILE + j % TILE, tile / tiles_x * TILE + j / TILE % TILE, j / (TILE * TILE) % params.each);
     }
-    trace(ctx, i, p, w + lift, unit(mirrored), params.reach);
 }
 #endif

@@ -1,16 +1,24 @@
 /* BUILD
-   math: screen_ray
-   module pixels: CHANNELS=1 KIND=READ RAYS=0 COUNT=0
-   module rays: CHANNELS=1 KIND=READ RAYS=1 COUNT=0
-   module count_pixels: CHANNELS=1 KIND=READ RAYS=0 COUNT=1
-   module count_rays: CHANNELS=1 KIND=READ RAYS=1 COUNT=1
-   module texels_pixels: CHANNELS=1 KIND=TEXELS RAYS=0 COUNT=0
-   module texels_rays: CHANNELS=1 KIND=TEXELS RAYS=1 COUNT=0
+   math: screen_ray vector ggx
+   module pixels: CHANNELS=1 KIND=READ RAYS=0 STOCHASTIC=0 COUNT=0
+   module stochastic: CHANNELS=1 KIND=READ RAYS=0 STOCHASTIC=1 COUNT=0
+   module rays: CHANNELS=1 KIND=READ RAYS=1 STOCHASTIC=0 COUNT=0
+   module count_pixels: CHANNELS=1 KIND=READ RAYS=0 STOCHASTIC=0 COUNT=1
+   module count_stochastic: CHANNELS=1 KIND=READ RAYS=0 STOCHASTIC=1 COUNT=1
+   module count_rays: CHANNELS=1 KIND=READ RAYS=1 STOCHASTIC=0 COUNT=1
+   module texels_pixels: CHANNELS=1 KIND=TEXELS RAYS=0 STOCHASTIC=0 COUNT=0
+   module texels_stochastic: CHANNELS=1 KIND=TEXELS RAYS=0 STOCHASTIC=1 COUNT=0
+   module texels_rays: CHANNELS=1 KIND=TEXELS RAYS=1 STOCHASTIC=0 COUNT=0
 */
+#define TILE 8  // traced pixels along a side of a tile
 #define PARAMETERS(_) \
     _(int, width)            /* of the depth image, pixels */ \
     _(int, height) \
-    _(int, rays)             /* in the list; 0: one a pixel */ \
+    _(int, rays)             /* in the list; 0: of the pixels */ \
+    _(int, each)             /* rays a traced pixel */ \
+    _(int, scale)            /* pixels along each axis for one that is traced, 1 or 2 */ \
+    _(int, seed) \
+    _(int, stride)           /* invocations */ \
     _(int, top)              /* the coarsest level that rays climb to */ \
     _(int, first)            /* the level that they start on */ \
     _(int, step_cap) \
@@ -39,9 +47,21 @@
 #else
 #define COUNTERS(_)
 #endif
+#if RAYS
+#define TILES(_)
+#else
+#define TILES(_) _(READ, 5, uint, tile_list)
+#endif
+#if STOCHASTIC
+#define DIRECTIONS(_) _(WRITE, 6, vec4, directions)
+#else
+#define DIRECTIONS(_)
+#endif
 #define BINDINGS(_) \
     _(KIND, 0, f32x1, depth) \
     _(READ, 1, vec4, source) \
     _(WRITE, 2, vec4, hits) \
     _(WRITE, 3, vec4, paths) \
-    COUNTERS(_)
+    COUNTERS(_) \
+    TILES(_) \
+    DIRECTIONS(_)

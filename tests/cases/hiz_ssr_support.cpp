@@ -64,26 +64,42 @@ Values screen_rays(const HizSsrParams& p, int count, std::uint32_t seed) {
   return rays;
 }
 
-Result<Values> with_pyramid(Context& context, const HizSsrParams& p, std::span<const double> stored) {
-  Values all(stored.begin(), stored.end());
-  if (hiz_ssr_levels(p) == 1) return all;
-  const MipBuildParams m = hiz_ssr_pyramid(p);
+namespace {
+
+// Level 0 with all others behind it, each at its place.
+template <class Offset>
+Result<Values> with_levels(Context& context, const MipBuildParams& m, std::span<const double> level_0, std::size_t size,
+                           const Offset& offset) {
+  Values all(level_0.begin(), level_0.end());
+  all.resize(size);
   auto run = Run::make(context, plan(m, context.profile()));
   if (!run) return run.status();
-  if (Status s = run.value().write(mip_level_name(0), stored); !s) return s;
+  if (Status s = run.value().write(mip_level_name(0), level_0); !s) return s;
   if (Status s = run.value().go(); !s) return s;
-  all.resize(hiz_ssr_depth_texels(p));
-  for (int level = 1; level < hiz_ssr_levels(p); ++level) {
+  for (int level = 1; level <= mip_levels(m); ++level) {
     const auto values = run.value().read(mip_level_name(level));
     if (!values) return values.status();
-    std::copy(values.value().begin(), values.value().end(),
-              all.begin() + static_cast<std::ptrdiff_t>(hiz_ssr_level_offset(p, level)));
+    std::copy(values.value().begin(), values.value().end(), all.begin() + static_cast<std::ptrdiff_t>(offset(level)));
   }
   return all;
 }
 
+}  // namespace
+
+Result<Values> with_pyramid(Context& context, const HizSsrParams& p, std::span<const double> stored) {
+  if (hiz_ssr_levels(p) == 1) return Values(stored.begin(), stored.end());
+  return with_levels(context, hiz_ssr_pyramid(p), stored, hiz_ssr_depth_texels(p),
+                     [&](int level) { return hiz_ssr_level_offset(p, level); });
+}
+
+Result<Values> with_colours(Context& context, const HizSsrParams& p, std::span<const double> colours) {
+  Values all(colours.begin(), colours.end());
+  if (hiz_ssr_colour_levels(p) == 1) return all;
+  return with_levels(context, hiz_ssr_colours(p), colours, 4 * hiz_ssr_colour_texels(p), [&](int level) { return 4 * hiz_ssr_colour_offset(p, level); });
+}
+
 Result<SsrResult> follow(Context& context, const HizSsrParams& p, std::span<const double> stored,
-                         std::span<const double> source) {
+                         std::span<const double> source, const SsrColours& colours) {
   const auto depth = with_pyramid(context, p, stored);
   if (!depth) return depth.status();
   auto run = Run::make(context, plan(p, context.profile()));
@@ -92,15 +108,35 @@ Result<SsrResult> follow(Context& context, const HizSsrParams& p, std::span<cons
   if (Status s = run.value().write(p.rays > 0 ? "rays" : "normals", source); !s) return s;
   if (p.count)
     if (Status s = run.value().write("counters", Values(ssr_outcomes, 0.0)); !s) return s;
+  if (p.shade) {
+    const auto colour = with_colours(context, p, colours.colour);
+    if (!colour) return colour.status();
+    if (Status s = run.value().write("colour", colour.value()); !s) return s;
+  }
+  if (p.fallback)
+    if (Status s = run.value().write("fallback", colours.fallback); !s) return s;
+  if (p.factor) {
+    if (Status s = run.value().write("specular", colours.specular); !s) return s;
+    if (Status s = run.value().write("split_sum", colours.split_sum); !s) return s;
+  }
   if (Status s = run.value().go(); !s) return s;
   SsrResult r;
-  for (const auto& [name, to] : {std::pair{"hits", &r.hits}, {"paths", &r.paths}, {"counters", &r.counters}}) {
-    if (to == &r.counters && !p.count) continue;
+  for (const auto& [name, to] : {std::pair{"hits", &r.hits}, {"paths", &r.paths}, {"counters", &r.counters},
+                                 {"directions", &r.directions}, {"radiance", &r.radiance}}) {
+    const auto& all = run.value().plan().resources;
+    if (std::none_of(all.begin(), all.end(), [n = std::string(name)](const Resource& x) { return x.name == n; })) continue;
     auto values = run.value().read(name);
     if (!values) return values.status();
     *to = std::move(values).value();
   }
   return r;
+}
+
+Result<Values> split_sum_table(Context& context, int size, int samples) {
+  auto run = Run::make(context, plan(SplitSumParams{size, samples}, context.profile()));
+  if (!run) return run.status();
+  if (Status s = run.value().go(); !s) return s;
+  return run.value().read("split_sum");
 }
 
 bool ray_of(const HizSsrParams& p, std::span<const double> stored, std::span<const double> source, std::size_t i,

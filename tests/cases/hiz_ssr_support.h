@@ -30,13 +30,21 @@ void add_ray(Values& rays, std::array<double, 3> origin, std::array<double, 3> d
 Result<Values> with_pyramid(Context& context, const HizSsrParams& params, std::span<const double> stored);
 
 struct SsrResult {
-  Values hits, paths, counters;
+  Values hits, paths, counters, directions, radiance;  // empty where not asked for
   SsrOutcome outcome(std::size_t ray) const { return static_cast<SsrOutcome>(static_cast<int>(paths[4 * ray + 1])); }
 };
 
-/// Follows the rays (params.rays) or mirrors the pixels: `source` is the list or the normals.
+/// What shading reads: level 0 of the colours, and the table as it is read back from the device.
+struct SsrColours {
+  Values colour, fallback, specular, split_sum;
+};
+
+/// Follows the rays (params.rays) or those of the pixels: `source` is the list or the normals.
 Result<SsrResult> follow(Context& context, const HizSsrParams& params, std::span<const double> stored,
-                         std::span<const double> source);
+                         std::span<const double> source, const SsrColours& colours = {});
+
+/// The split-sum table, made on the device.
+Result<Values> split_sum_table(Context& context, int size, int samples);
 
 /// The rays that were followed, as the truth takes them; false where there is none.
 bool ray_of(const HizSsrParams& params, std::span<const double> stored, std::span<const double> source, std::size_t ray,
@@ -53,5 +61,6 @@ Agreement compare(const HizSsrParams& params, std::span<const double> stored, st
 /// Cases in these files, in the order of hiz_ssr_cases().
 void add_ssr_walk_cases(std::vector<Case>& cases);
 void add_ssr_value_cases(std::vector<Case>& cases);
+void add_ssr_shade_cases(std::vector<Case>& cases);
 
 }  // namespace luxel::cases

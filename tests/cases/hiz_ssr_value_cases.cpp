@@ -195,6 +195,7 @@ std::vector<Case> hiz_ssr_cases() {
   std::vector<Case> cases;
   add_ssr_walk_cases(cases);
   add_ssr_value_cases(cases);
+  add_ssr_shade_cases(cases);
   for (Case& c : cases) c.kernel = "hiz_ssr";
   return cases;
 }
