@@ -11,6 +11,7 @@ void add_gaussian_blur(CLI::App& app, int& exit_status);
 void add_bilateral(CLI::App& app, int& exit_status);
 void add_denoise(CLI::App& app, int& exit_status);
 void add_mip_build(CLI::App& app, int& exit_status);
+void add_hiz_ssr(CLI::App& app, int& exit_status);
 void add_cone_trace(CLI::App& app, int& exit_status);
 void add_voxelize(CLI::App& app, int& exit_status);
 void add_render(CLI::App& app, int& exit_status);

@@ -73,6 +73,7 @@ int run(int argc, char** argv) {
   add_denoise(app, exit_status);
   add_mip_build(app, exit_status);
   add_voxelize(app, exit_status);
+  add_hiz_ssr(app, exit_status);
   add_cone_trace(app, exit_status);
   add_render(app, exit_status);
   add_bench(app, exit_status);

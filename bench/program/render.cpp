@@ -19,6 +19,7 @@ using glm::dvec3;
 // A method that is added here is an option of the command.
 constexpr RenderMethod methods[] = {
     {"cone", "voxel cone tracing on a device", render_cone},
+    {"ssr", "the same, with reflections found on the screen before the cones'", render_ssr},
     {"truth", "path tracing on the CPU, two independent halves", render_truth},
 };
 
@@ -29,6 +30,9 @@ struct Arguments {
   std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers,
                              show = shown[0];
   double exposure = 0, ao_falloff = -1, ao_distance = 0;
+  double thickness = 0;
+  int ssr_rays = 4, reuse = 1;
+  bool half = false;
   int samples = 64, bounces = 0, resolution = 128, cone_count = 6;
   double aperture = 0, step = 0.5, offset = 1;
   bool anisotropic = false, thin = false, both_sides = false;
@@ -201,7 +205,14 @@ int run(const Arguments& a) {
   cones.cones = set.value();
   cones.step_scale = a.step;
   cones.normal_offset = a.offset;
-  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones});
+  HizSsrParams screen;
+  screen.variant = a.ssr_rays > 0 ? SsrVariant::stochastic : SsrVariant::hiz;
+  screen.rays_per_pixel = std::max(a.ssr_rays, 1);
+  screen.half_resolution = a.half && a.ssr_rays > 0;
+  screen.reuse = a.reuse;
+  // Most surfaces stand in front of others: what is thicker hides too much, what is thinner lets rays through.
+  screen.thickness = a.thickness > 0 ? a.thickness : glm::length(box.high - box.low) / 64;
+  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones, screen});
   if (!rendered) return complain(rendered.status());
   RenderOutput& output = rendered.value();
   clock.ms();
@@ -326,6 +337,16 @@ void add_render(CLI::App& app, int& exit_status) {
   command->add_option("--offset", a->offset, "of cone: voxels above the surface where cones start, 0..64; default 1")
       ->type_name("NUMBER")
       ->check(within(0, 64, false));
+  command->add_option("--ssr-rays", a->ssr_rays, "of ssr: directions of the lobe a pixel, 1..4; 0: its mirror direction; default 4")
+      ->type_name("N")
+      ->check(within(0, 4, true));
+  command->add_option("--reuse", a->reuse, "of ssr: pixels around one whose rays it takes, 0..4; default 1")
+      ->type_name("N")
+      ->check(within(0, 4, true));
+  command->add_flag("--half-resolution", a->half, "of ssr: rays of one pixel of 2x2");
+  command->add_option("--thickness", a->thickness, "of ssr: of surfaces, scene units, 0..1e9; default 0: 1/64 of the scene's diagonal")
+      ->type_name("NUMBER")
+      ->check(within(0, 1e9, false));
   add_device_option(*command, a->device);
   command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });

@@ -7,6 +7,7 @@
 
 #include "bench/io/image.h"
 #include "bench/scene/compose.h"
+#include "bench/scene/screen.h"
 #include "bench/scene/voxel_scene.h"
 #include "bench/truth/path_truth.h"
 
@@ -21,6 +22,7 @@ struct RenderInput {
   truth::PathSettings settings;   // ambient occlusion's falloff and reach hold for every method
   scene::VoxelSceneSettings voxels;
   ConeTraceParams cones;          // how they are traced; volumes and receivers are the method's own
+  HizSsrParams screen;            // of ssr: how rays walk; view and resources are the method's own
 };
 
 /// Milliseconds that a step took; `phase` is build (once for a scene), update (once for a change of light) or shade (once
@@ -59,5 +61,6 @@ struct RenderMethod {
 
 Result<RenderOutput> render_truth(const RenderInput& input);
 Result<RenderOutput> render_cone(const RenderInput& input);
+Result<RenderOutput> render_ssr(const RenderInput& input);
 
 }  // namespace luxel::program

@@ -144,6 +144,9 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("cone_trace"))
     for (const BenchSetting& setting : cone_trace_settings(context->profile()))
       line("cone_trace " + setting.name, setting);
+  if (wanted.wants("hiz_ssr"))
+    for (const BenchSetting& setting : hiz_ssr_settings(context->profile()))
+      line("hiz_ssr " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "bench/scene/images.h"
 #include "host/module.h"
 
 namespace luxel::built_in {
-extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic, limit_sample;
+extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic, limit_sample, limit_march;
 }
 
 namespace luxel::report {
@@ -165,6 +166,23 @@ Result<Plan> sample_plan(int width, int height, int side, int looks, std::array<
                   {static_cast<double>(width), static_cast<double>(height), static_cast<double>(side),
                    static_cast<double>(looks), step[0], step[1], step[2]},
                   {}, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), profile.pixels.workgroup);
+}
+
+Result<Plan> march_plan(int invocations, int entries, int steps, const Profile& profile) {
+  const Module* module = module_in(built_in::limit_march, profile.texels ? "texels_f32x1" : "f32x1");
+  if (!module) return Status(Code::internal, "limit_march has no form of these buffers");
+  const auto& w = profile.pixels.workgroup;
+  return one_pass("limit_march", module,
+                  {buffer("links", Format::f32x1, static_cast<std::size_t>(entries), false),
+                   buffer("dst", Format::f32x1, static_cast<std::size_t>(invocations), true)},
+                  {static_cast<double>(invocations), static_cast<double>(entries), static_cast<double>(steps)}, {},
+                  static_cast<std::uint32_t>(invocations), 1, {w[0] * w[1] * w[2], 1, 1});
+}
+
+double march_steps(int invocations, int steps) {
+  double sum = 0;
+  for (int i = 0; i < invocations; ++i) sum += 1 + scene::hash(static_cast<std::uint32_t>(i)) % static_cast<std::uint32_t>(steps);
+  return sum;
 }
 
 std::vector<Job> limit_jobs(Session& session) {

@@ -36,6 +36,11 @@ struct SampleForm {
 Result<Plan> sample_plan(int width, int height, int side, int looks, std::array<double, 3> step, const SampleForm& form,
                          const Profile& profile);
 
+/// Plan of a march: `invocations`, each a random number of steps up to `steps`, whose reads' addresses are the values that the
+/// reads before gave. Resources links (f32x1: a cycle through all its entries, below 2^24) and dst. And the steps of all.
+Result<Plan> march_plan(int invocations, int entries, int steps, const Profile& profile);
+double march_steps(int invocations, int steps);
+
 /// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
 Json machine_limits(bool quick);
 

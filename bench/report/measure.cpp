@@ -12,10 +12,12 @@
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
 #include "bench/report/rendered.h"
+#include "bench/report/screens.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
+#include "tests/cases/hiz_ssr_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
@@ -77,6 +79,12 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, cone_peers(session));
     append(jobs, stability_jobs(session, cases::cone_trace_cases()));
     append(jobs, rendered_grid(session, missing));
+  }
+  if (settings.wants("hiz_ssr")) {
+    append(jobs, screen_grid(session));
+    append(jobs, screen_left_out(session));
+    append(jobs, screen_peers(session));
+    append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
   }
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())

@@ -1,0 +1,14 @@
+// Rows of hiz_ssr: time and what is missed as rays grow longer, what leaving tiles out saves, looks beside a dependent march.
+#pragma once
+#include <vector>
+
+#include "bench/report/bench.h"
+#include "bench/report/session.h"
+
+namespace luxel::report {
+
+std::vector<Job> screen_grid(Session& session);
+std::vector<Job> screen_left_out(Session& session);
+std::vector<Job> screen_peers(Session& session);
+
+}  // namespace luxel::report
