@@ -22,7 +22,7 @@ struct Settings {
 
 /// Kernels that the report measures.
 inline const std::vector<std::string>& measured_kernels() {
-  static const std::vector<std::string> names{"gaussian_blur", "mip_build", "voxelize", "cone_trace"};
+  static const std::vector<std::string> names{"gaussian_blur", "mip_build", "voxelize", "cone_trace", "hiz_ssr"};
   return names;
 }
 
