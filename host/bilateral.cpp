@@ -36,9 +36,7 @@ double space_exponent(const BilateralParams& p, double distance) {
 
 RangeTerm range_of(const BilateralParams& p) { return std::isinf(p.sigma_range) ? RangeTerm::off : p.range; }
 
-bool nothing_to_do(const BilateralParams& p) {
-  return p.range != RangeTerm::off && p.sigma_range == 0;
-}
+bool nothing_to_do(const BilateralParams& p) { return p.range != RangeTerm::off && p.sigma_range == 0; }
 
 }  // namespace
 
@@ -101,7 +99,8 @@ Status validate(const BilateralParams& p) {
   LUXEL_CHECK(check_range("BilateralParams.border", static_cast<int>(p.border), 0, 3));
   if (p.alpha && channels(p.format) != 4)
     return out_of_range("BilateralParams.alpha", "true", "false for a format of fewer than four channels");
-  if (p.variant == BilateralVariant::grid || p.variant == BilateralVariant::discontinuity) LUXEL_CHECK(validate_terms(p));
+  if (p.variant == BilateralVariant::grid || p.variant == BilateralVariant::discontinuity)
+    LUXEL_CHECK(validate_terms(p));
   const long long pixels = static_cast<long long>(std::max({p.src_stride, p.dst_stride, p.width})) * p.height;
   if (pixels * 16 > 0x7fffffffLL)
     return out_of_range("BilateralParams.height", p.height, "stride x height of at most 134217727");
@@ -143,10 +142,10 @@ class Builder {
     int columns, rows, step, reach;
     Slot from;
     Slot table;
-    bool last = true;   // writes dst; else the planes `to`
+    bool last = true;  // writes dst; else the planes `to`
     Slot to = {};
     int adaptive = 0;
-    int variance = 0;   // the plane of guides_, where luminance is on
+    int variance = 0;  // the plane of guides_, where luminance is on
     bool carry = false;
     Slot carried = {};  // where the variance of the result goes: rows `carried_stride` apart, from element `carried_at`
     int carried_stride = 0, carried_at = 0;
@@ -233,11 +232,18 @@ class Builder {
     return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), 1};
   }
 
-  void split(const char* label, Slot image, Format format, int stride, int count, Slot to, int first, int mark, double scale = 1,
-             double offset = 0) {
+  void split(const char* label, Slot image, Format format, int stride, int count, Slot to, int first, int mark,
+             double scale = 1, double offset = 0) {
     planner_.pass("bilateral_split", name(format), label, over(pitch_, p_.height), workgroup_,
-                  {{"width", p_.width}, {"height", p_.height}, {"src_stride", stride}, {"pitch", pitch_}, {"pad", pad_},
-                   {"first", first}, {"bias", bias_plane_}, {"scale", scale}, {"offset", offset}},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"src_stride", stride},
+                   {"pitch", pitch_},
+                   {"pad", pad_},
+                   {"first", first},
+                   {"bias", bias_plane_},
+                   {"scale", scale},
+                   {"offset", offset}},
                   {{"COUNT", count}, {"BORDER", static_cast<int>(p_.border)}, {"MARK", mark}},
                   {{"src", image}, {"planes", to}, {"biases", guides_}});
     planner_.cost(0, static_cast<double>(p_.width) * p_.height * (bytes_per_pixel(format) + 4 * count));
@@ -245,7 +251,11 @@ class Builder {
 
   void counted(Slot image, Format format, int stride, int counter, int rule, double scale = 1, double offset = 0) {
     planner_.pass("bilateral_count", name(format), "bilateral count", over(p_.width, p_.height), workgroup_,
-                  {{"width", p_.width}, {"height", p_.height}, {"src_stride", stride}, {"counter", counter}, {"scale", scale},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"src_stride", stride},
+                   {"counter", counter},
+                   {"scale", scale},
                    {"offset", offset}},
                   {{"RULE", rule}}, {{"src", image}, {"counters", counters_}});
   }
@@ -260,16 +270,21 @@ class Builder {
       if (depth_ != DepthTerm::off) counted(z_, Format::f32x1, p_.width, 2, 1);
       if (normal_) counted(normals_, p_.normal_format, p_.width, 3, 2, normal_scale(), normal_offset());
     }
-    split("bilateral split", src_, p_.format, src_stride_, colour_count_, colours_, 0, range_ == RangeTerm::self ? 1 : bias_ ? 2 : 0);
+    split("bilateral split", src_, p_.format, src_stride_, colour_count_, colours_, 0,
+          range_ == RangeTerm::self ? 1
+          : bias_                   ? 2
+                                    : 0);
     if (range_ == RangeTerm::guide)
       split("bilateral guide", guide_, p_.guide_format, p_.width, guide_count_, guides_, guide_plane_, 0);
     if (normal_)
-      split("bilateral normals", normals_, p_.normal_format, p_.width, 3, guides_, normal_plane_, 0, normal_scale(), normal_offset());
+      split("bilateral normals", normals_, p_.normal_format, p_.width, 3, guides_, normal_plane_, 0, normal_scale(),
+            normal_offset());
     if (depth_ != DepthTerm::off) {
-      planner_.pass("bilateral_depth", "f32x1", "bilateral depth", over(pitch_, p_.height), workgroup_,
-                    {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"first", depth_plane_}},
-                    {{"BORDER", static_cast<int>(p_.border)}, {"INVERSE", depth_ == DepthTerm::plane}},
-                    {{"z", z_}, {"planes", guides_}});
+      planner_.pass(
+          "bilateral_depth", "f32x1", "bilateral depth", over(pitch_, p_.height), workgroup_,
+          {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"first", depth_plane_}},
+          {{"BORDER", static_cast<int>(p_.border)}, {"INVERSE", depth_ == DepthTerm::plane}},
+          {{"z", z_}, {"planes", guides_}});
       planner_.cost(12.0 * p_.width * p_.height, 16.0 * p_.width * p_.height);
     }
     if (luminance_) split("bilateral variance", variance_, Format::f32x1, p_.width, 1, guides_, variance_plane_, 0);
@@ -278,8 +293,14 @@ class Builder {
 
   void weigh_luminance(Slot colours, int variance) {
     planner_.pass("bilateral_luminance", "f32x1", "bilateral luminance", over(pitch_, p_.height), workgroup_,
-                  {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"first", luminance_plane_},
-                   {"variance", variance}, {"sigma", p_.sigma_luminance}, {"epsilon", p_.epsilon}},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"pitch", pitch_},
+                   {"pad", pad_},
+                   {"first", luminance_plane_},
+                   {"variance", variance},
+                   {"sigma", p_.sigma_luminance},
+                   {"epsilon", p_.epsilon}},
                   {{"COLOURS", colour_count_}, {"BORDER", static_cast<int>(p_.border)}},
                   {{"colours", colours}, {"variances", guides_}, {"planes", guides_}});
     planner_.cost(30.0 * p_.width * p_.height, (4.0 * colour_count_ + 12) * p_.width * p_.height);
@@ -287,7 +308,12 @@ class Builder {
 
   void pad(Slot planes, int first, int count) {
     planner_.pass("bilateral_pad", "f32x1", "bilateral pad", over(pitch_ - p_.width, count * p_.height), workgroup_,
-                  {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"first", first}, {"count", count}},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"pitch", pitch_},
+                   {"pad", pad_},
+                   {"first", first},
+                   {"count", count}},
                   {{"BORDER", static_cast<int>(p_.border)}}, {{"planes", planes}});
   }
 
@@ -304,44 +330,89 @@ class Builder {
   void filter(const Filter& f) {
     const Shape& shape = profile_.pixels;
     const int lanes = std::max(shape.lanes, 1);
-    const int block = f.adaptive != 0 || f.rows == 0 || profile_.name == "reference" ? 1 : 1;
+    // Rows of results share their loads.
+    const int block = f.rows > 0 && f.adaptive == 0 ? std::min(profile_.columns.block, 4) : 1;
     const int along = (p_.height + f.step * block - 1) / (f.step * block) * f.step;
     const std::string module = std::string(profile_.texels ? "texels_" : "") + (f.last ? name(p_.format) : "planes");
     const double range_factor =
         range_ == RangeTerm::off ? 0 : std::min(0.5 * log2_e / (p_.sigma_range * p_.sigma_range), 1e30);
     planner_.pass("bilateral", module, "bilateral", over((p_.width + lanes - 1) / lanes, along), shape.workgroup,
-                  {{"width", p_.width}, {"height", p_.height}, {"src_stride", src_stride_}, {"dst_stride", dst_stride_},
-                   {"pitch", pitch_}, {"pad", pad_}, {"bias", bias_plane_}, {"guide", guide_plane_}, {"depth", depth_plane_},
-                   {"normal", normal_plane_}, {"luminance", luminance_plane_}, {"variance", f.variance}, {"carried_stride", f.carried_stride}, {"carried_at", f.carried_at},
-                   {"range_factor", range_factor}, {"normal_power", p_.sigma_normal},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"src_stride", src_stride_},
+                   {"dst_stride", dst_stride_},
+                   {"pitch", pitch_},
+                   {"pad", pad_},
+                   {"bias", bias_plane_},
+                   {"guide", guide_plane_},
+                   {"depth", depth_plane_},
+                   {"normal", normal_plane_},
+                   {"luminance", luminance_plane_},
+                   {"variance", f.variance},
+                   {"carried_stride", f.carried_stride},
+                   {"carried_at", f.carried_at},
+                   {"range_factor", range_factor},
+                   {"normal_power", p_.sigma_normal},
                    {"depth_scale", p_.depth == DepthTerm::plane ? p_.sigma_depth * p_.footprint : p_.sigma_depth}},
-                  {{"COLUMNS", f.columns}, {"ROWS", f.rows}, {"REACH", f.reach}, {"STEP", f.step},
-                   {"BORDER", static_cast<int>(p_.border)}, {"COLOURS", colour_count_}, {"RANGE", static_cast<int>(range_)},
-                   {"GUIDES", guide_count_}, {"L1", p_.range_norm == RangeNorm::l1}, {"BIAS", bias_},
-                   {"DEPTH", static_cast<int>(depth_)}, {"NORMAL", normal_}, {"LUMINANCE", luminance_}, {"CARRY", f.carry},
-                   {"ADAPTIVE", f.adaptive}, {"LANES", lanes}, {"BLOCK", block}},
-                  {{"planes", f.from}, {"guides", guides_}, {"src", f.last ? src_ : f.from}, {"dst", f.last ? dst_ : f.to},
-                   {"variances", f.carry ? f.carried : guides_}, {"spatial", f.table}});
+                  {{"COLUMNS", f.columns},
+                   {"ROWS", f.rows},
+                   {"REACH", f.reach},
+                   {"STEP", f.step},
+                   {"BORDER", static_cast<int>(p_.border)},
+                   {"COLOURS", colour_count_},
+                   {"RANGE", static_cast<int>(range_)},
+                   {"GUIDES", guide_count_},
+                   {"L1", p_.range_norm == RangeNorm::l1},
+                   {"BIAS", bias_},
+                   {"DEPTH", static_cast<int>(depth_)},
+                   {"NORMAL", normal_},
+                   {"LUMINANCE", luminance_},
+                   {"CARRY", f.carry},
+                   {"ADAPTIVE", f.adaptive},
+                   {"LANES", lanes},
+                   {"BLOCK", block}},
+                  {{"planes", f.from},
+                   {"guides", guides_},
+                   {"src", f.last ? src_ : f.from},
+                   {"dst", f.last ? dst_ : f.to},
+                   {"variances", f.carry ? f.carried : guides_},
+                   {"spatial", f.table}});
     const double taps = (2.0 * f.columns + 1) * (2.0 * f.rows + 1);
-    const double terms = 18 + 3 * colour_count_ + (range_ == RangeTerm::off ? 0 : 3 * std::max(guide_count_, colour_count_)) +
+    const double terms = 18 + 3 * colour_count_ +
+                         (range_ == RangeTerm::off ? 0 : 3 * std::max(guide_count_, colour_count_)) +
                          (depth_ == DepthTerm::off ? 0 : 12) + (normal_ ? 25 : 0) + (luminance_ ? 4 : 0);
-    planner_.cost(taps * terms * p_.width * p_.height,
-                  (4.0 * (colour_count_ + guide_planes_) + (f.last ? 2.0 * bytes_per_pixel(p_.format) : 4.0 * colour_count_)) * p_.width * p_.height);
+    planner_.cost(
+        taps * terms * p_.width * p_.height,
+        (4.0 * (colour_count_ + guide_planes_) + (f.last ? 2.0 * bytes_per_pixel(p_.format) : 4.0 * colour_count_)) *
+            p_.width * p_.height);
   }
 
   void separable() {
     const int count = p_.adaptive ? inner() + (taps_ - inner() + 1) / 2 : taps_;
     const Slot table = window(), between = planes(colour_count_);
     const int reach = count * count;
-    filter({.columns = count, .rows = 0, .step = p_.step, .reach = reach, .from = colours_, .table = table, .last = false,
-            .to = between, .adaptive = inner()});
-    filter({.columns = 0, .rows = count, .step = p_.step, .reach = reach, .from = between, .table = table, .adaptive = inner()});
+    filter({.columns = count,
+            .rows = 0,
+            .step = p_.step,
+            .reach = reach,
+            .from = colours_,
+            .table = table,
+            .last = false,
+            .to = between,
+            .adaptive = inner()});
+    filter({.columns = 0,
+            .rows = count,
+            .step = p_.step,
+            .reach = reach,
+            .from = between,
+            .table = table,
+            .adaptive = inner()});
   }
 
   void atrous() {
     // B3 spline 1 4 6 4 1, or 1 2 1, relative to the centre.
-    const std::vector<double> exponents = p_.taps == 5 ? std::vector<double>{0, std::log2(4.0 / 6), std::log2(1.0 / 6)}
-                                                       : std::vector<double>{0, -1};
+    const std::vector<double> exponents =
+        p_.taps == 5 ? std::vector<double>{0, std::log2(4.0 / 6), std::log2(1.0 / 6)} : std::vector<double>{0, -1};
     const Slot table = planner_.table(exponents, exponents);
     Slot from = colours_, other = colours_;
     if (p_.levels > 1) other = planes(colour_count_);
@@ -351,8 +422,16 @@ class Builder {
       const bool carry = luminance_ && (!last || p_.carry_variance);
       const int carried = 2 * variance_plane_ + 1 - variance;
       if (luminance_) weigh_luminance(from, variance);
-      Filter f{.columns = taps_, .rows = taps_, .step = 1 << level, .reach = 2 * taps_ * taps_, .from = from, .table = table,
-               .last = last, .to = other, .variance = variance, .carry = carry};
+      Filter f{.columns = taps_,
+               .rows = taps_,
+               .step = 1 << level,
+               .reach = 2 * taps_ * taps_,
+               .from = from,
+               .table = table,
+               .last = last,
+               .to = other,
+               .variance = variance,
+               .carry = carry};
       f.carried = last ? variance_out_ : guides_;
       f.carried_stride = last ? p_.width : pitch_;
       f.carried_at = last ? 0 : carried * p_.height * pitch_ + pad_;

@@ -51,7 +51,9 @@ Status validate_grid(const BilateralParams& p) {
     return out_of_range("BilateralParams.sigma_range of variant grid", p.sigma_range, "(high - low) / 256 or more");
   const Grid g = grid_of(p);
   const double cells = static_cast<double>(g.columns) * g.rows * g.bins;
-  if (cells > 1 << 26) return out_of_range("BilateralParams.sigma_range of variant grid", p.sigma_range, "a grid of at most 67108864 cells");
+  if (cells > 1 << 26)
+    return out_of_range("BilateralParams.sigma_range of variant grid", p.sigma_range,
+                        "a grid of at most 67108864 cells");
   return {};
 }
 
@@ -71,7 +73,8 @@ Status validate_terms(const BilateralParams& p) {
   if (!grid && p.step != 1) return out_of_range("BilateralParams.step", p.step, "1" + where);
   if (p.border != Border::clamp) {
     const char* const names[] = {"clamp", "mirror", "wrap", "zero"};
-    return out_of_range("BilateralParams.border", names[static_cast<int>(p.border)], "clamp" + where + ", which takes nothing from outside");
+    return out_of_range("BilateralParams.border", names[static_cast<int>(p.border)],
+                        "clamp" + where + ", which takes nothing from outside");
   }
   return {};
 }
@@ -85,19 +88,35 @@ Result<Plan> plan_grid(const BilateralParams& p, const Profile& profile) {
   Slot a = planner.scratch(Format::f32x4, cells), b = planner.scratch(Format::f32x4, cells);
   const std::array<std::uint32_t, 3> workgroup = profile.pixels.workgroup;
   planner.pass("bilateral_grid_fill", name(p.format), "bilateral grid fill", over(g.columns, g.rows), {16, 4, 1},
-               {{"width", p.width}, {"height", p.height}, {"src_stride", m.src_stride}, {"columns", g.columns}, {"rows", g.rows},
-                {"bins", g.bins}, {"cell", g.cell}, {"low", p.low}, {"per_step", per_step}},
+               {{"width", p.width},
+                {"height", p.height},
+                {"src_stride", m.src_stride},
+                {"columns", g.columns},
+                {"rows", g.rows},
+                {"bins", g.bins},
+                {"cell", g.cell},
+                {"low", p.low},
+                {"per_step", per_step}},
                {}, {{"src", m.src}, {"grid", a}});
   planner.cost(10 * pixels, pixels * bytes_per_pixel(p.format) + 16.0 * cells);
   for (int axis = 0; axis < 3; ++axis) {
     planner.pass("bilateral_grid_blur", "f32x4", "bilateral grid blur", over(g.columns, g.rows, g.bins), {16, 4, 1},
-                 {{"columns", g.columns}, {"rows", g.rows}, {"bins", g.bins}}, {{"AXIS", axis}}, {{"from", a}, {"to", b}});
+                 {{"columns", g.columns}, {"rows", g.rows}, {"bins", g.bins}}, {{"AXIS", axis}},
+                 {{"from", a}, {"to", b}});
     planner.cost(28.0 * cells, 32.0 * cells);
     std::swap(a, b);
   }
   planner.pass("bilateral_grid_slice", name(p.format), "bilateral grid slice", over(p.width, p.height), workgroup,
-               {{"width", p.width}, {"height", p.height}, {"src_stride", m.src_stride}, {"dst_stride", m.dst_stride},
-                {"columns", g.columns}, {"rows", g.rows}, {"bins", g.bins}, {"cell", g.cell}, {"low", p.low}, {"per_step", per_step}},
+               {{"width", p.width},
+                {"height", p.height},
+                {"src_stride", m.src_stride},
+                {"dst_stride", m.dst_stride},
+                {"columns", g.columns},
+                {"rows", g.rows},
+                {"bins", g.bins},
+                {"cell", g.cell},
+                {"low", p.low},
+                {"per_step", per_step}},
                {}, {{"src", m.src}, {"grid", a}, {"dst", m.dst}});
   planner.cost(100 * pixels, 2 * pixels * bytes_per_pixel(p.format) + 16.0 * cells);
   return std::move(planner).finish();
@@ -119,12 +138,14 @@ Result<Plan> plan_discontinuity(const BilateralParams& p, const Profile& profile
   const Slot table = planner.table(weights, weights);
   const bool same = p.format == middle_format;
   const auto pass = [&](int axis, const std::string& module, Slot from, int src_stride, Slot to, int dst_stride) {
-    planner.pass("bilateral_discontinuity", module, "bilateral discontinuity", over(p.width, p.height), profile.pixels.workgroup,
+    planner.pass("bilateral_discontinuity", module, "bilateral discontinuity", over(p.width, p.height),
+                 profile.pixels.workgroup,
                  {{"width", p.width}, {"height", p.height}, {"src_stride", src_stride}, {"dst_stride", dst_stride}},
                  {{"RADIUS", taps}, {"AXIS", axis}, {"ALPHA", p.alpha}},
                  {{"src", from}, {"mask", edges}, {"dst", to}, {"weights", table}});
-    planner.cost(static_cast<double>(p.width) * p.height * 2 * taps * (3 * n + 1),
-                 static_cast<double>(p.width) * p.height * (4.0 + bytes_per_pixel(p.format) + bytes_per_pixel(middle_format)));
+    planner.cost(
+        static_cast<double>(p.width) * p.height * 2 * taps * (3 * n + 1),
+        static_cast<double>(p.width) * p.height * (4.0 + bytes_per_pixel(p.format) + bytes_per_pixel(middle_format)));
   };
   pass(0, same ? own : own + "_" + middle_name, m.src, m.src_stride, middle, p.width);
   pass(1, same ? own : middle_name + "_" + own, middle, p.width, m.dst, m.dst_stride);
@@ -149,7 +170,8 @@ Status validate(const BilateralUpsampleParams& p) {
 Result<Plan> plan(const BilateralUpsampleParams& p, const Profile& profile) {
   LUXEL_CHECK(validate(p));
   const int low_width = (p.width + p.ratio - 1) / p.ratio, low_height = (p.height + p.ratio - 1) / p.ratio;
-  const std::size_t all = static_cast<std::size_t>(p.width) * p.height, low = static_cast<std::size_t>(low_width) * low_height;
+  const std::size_t all = static_cast<std::size_t>(p.width) * p.height,
+                    low = static_cast<std::size_t>(low_width) * low_height;
   Planner planner("bilateral_upsample");
   const auto resource = [&](const char* name, Format format, std::size_t count, bool written = false) {
     Resource r{name};
@@ -162,14 +184,25 @@ Result<Plan> plan(const BilateralUpsampleParams& p, const Profile& profile) {
   const Slot depth = resource("depth", Format::f32x1, all), dst = resource("dst", p.format, all, true);
   const Slot normals_low = p.normal ? resource("normals_low", Format::f32x4, low) : depth_low;
   const Slot normals = p.normal ? resource("normals", Format::f32x4, all) : depth;
-  planner.pass("bilateral_upsample", (p.normal ? "normal_" : "") + std::string(name(p.format)), "bilateral upsample", over(p.width, p.height),
-               profile.pixels.workgroup,
-               {{"width", p.width}, {"height", p.height}, {"low_width", low_width}, {"low_height", low_height},
-                {"depth_scale", p.sigma_depth * p.footprint}, {"normal_power", p.sigma_normal}, {"least", p.least}},
+  planner.pass("bilateral_upsample", (p.normal ? "normal_" : "") + std::string(name(p.format)), "bilateral upsample",
+               over(p.width, p.height), profile.pixels.workgroup,
+               {{"width", p.width},
+                {"height", p.height},
+                {"low_width", low_width},
+                {"low_height", low_height},
+                {"depth_scale", p.sigma_depth * p.footprint},
+                {"normal_power", p.sigma_normal},
+                {"least", p.least}},
                {{"RATIO", p.ratio}, {"NEAREST", p.nearest_depth}},
-               {{"src", src}, {"depth_low", depth_low}, {"depth", depth}, {"normals_low", normals_low}, {"normals", normals}, {"dst", dst}});
+               {{"src", src},
+                {"depth_low", depth_low},
+                {"depth", depth},
+                {"normals_low", normals_low},
+                {"normals", normals},
+                {"dst", dst}});
   const double pixels = static_cast<double>(all);
-  planner.cost(pixels * (p.normal ? 260 : 160), static_cast<double>(low * (bytes_per_pixel(p.format) + 4)) + pixels * (4.0 + bytes_per_pixel(p.format)));
+  planner.cost(pixels * (p.normal ? 260 : 160),
+               static_cast<double>(low * (bytes_per_pixel(p.format) + 4)) + pixels * (4.0 + bytes_per_pixel(p.format)));
   return std::move(planner).finish();
 }
 

@@ -35,11 +35,16 @@ Result<Plan> plan(const DiscontinuityMaskParams& p, const Profile& profile) {
   const bool unorm = p.normal_format == Format::unorm8x4;
   planner.pass("discontinuity_mask", p.normal ? name(p.normal_format) : "depth", "discontinuity_mask",
                {static_cast<std::uint32_t>(p.width), static_cast<std::uint32_t>(p.height), 1}, profile.pixels.workgroup,
-               {{"width", p.width}, {"height", p.height}, {"depth_threshold", p.depth_threshold},
-                {"normal_threshold", p.normal_threshold}, {"scale", unorm ? 2 : 1}, {"offset", unorm ? -1 : 0}},
+               {{"width", p.width},
+                {"height", p.height},
+                {"depth_threshold", p.depth_threshold},
+                {"normal_threshold", p.normal_threshold},
+                {"scale", unorm ? 2 : 1},
+                {"offset", unorm ? -1 : 0}},
                {}, {{"depth", z}, {"normals", n}, {"mask", to}});
-  planner.cost(60.0 * static_cast<double>(pixels),
-               static_cast<double>(pixels) * (8.0 + (p.normal ? static_cast<double>(bytes_per_pixel(p.normal_format)) : 0.0)));
+  planner.cost(
+      60.0 * static_cast<double>(pixels),
+      static_cast<double>(pixels) * (8.0 + (p.normal ? static_cast<double>(bytes_per_pixel(p.normal_format)) : 0.0)));
   return std::move(planner).finish();
 }
 

@@ -43,13 +43,15 @@ Result<Plan> plan(const OutlierClampParams& p, const Profile& profile) {
   } else {
     counters = planner.scratch(Format::u32, 2);
   }
-  planner.pass("outlier_clamp", name(p.format), "outlier_clamp",
-               {static_cast<std::uint32_t>(p.width), static_cast<std::uint32_t>(p.height), 1}, profile.pixels.workgroup,
-               {{"width", p.width}, {"height", p.height}, {"src_stride", src_stride}, {"dst_stride", dst_stride}, {"k", p.k}},
-               {{"RADIUS", p.radius}, {"MEDIAN", p.variant == OutlierVariant::median}, {"COUNTED", p.count}},
-               {{"src", from}, {"dst", to}, {"counters", counters}});
+  planner.pass(
+      "outlier_clamp", name(p.format), "outlier_clamp",
+      {static_cast<std::uint32_t>(p.width), static_cast<std::uint32_t>(p.height), 1}, profile.pixels.workgroup,
+      {{"width", p.width}, {"height", p.height}, {"src_stride", src_stride}, {"dst_stride", dst_stride}, {"k", p.k}},
+      {{"RADIUS", p.radius}, {"MEDIAN", p.variant == OutlierVariant::median}, {"COUNTED", p.count}},
+      {{"src", from}, {"dst", to}, {"counters", counters}});
   const double n = (2.0 * p.radius + 1) * (2.0 * p.radius + 1) - 1, pixels = static_cast<double>(p.width) * p.height;
-  planner.cost(pixels * (p.variant == OutlierVariant::mean ? 8 * n : 6 * n * n), pixels * 2 * bytes_per_pixel(p.format));
+  planner.cost(pixels * (p.variant == OutlierVariant::mean ? 8 * n : 6 * n * n),
+               pixels * 2 * bytes_per_pixel(p.format));
   return std::move(planner).finish();
 }
 

@@ -20,7 +20,8 @@ Status validate(const VarianceParams& p) {
   if (p.format == Format::u32 || p.format == Format::f16x2 || name(p.format) == name(static_cast<Format>(-1)))
     return out_of_range("VarianceParams.format", name(p.format), "f32x1, f32x2, f32x4, f16x4 or unorm8x4");
   const long long pixels = static_cast<long long>(std::max(p.src_stride, p.width)) * p.height;
-  if (pixels * 4 > 0x7fffffffLL) return out_of_range("VarianceParams.height", p.height, "stride x height of at most 536870911");
+  if (pixels * 4 > 0x7fffffffLL)
+    return out_of_range("VarianceParams.height", p.height, "stride x height of at most 536870911");
   return {};
 }
 
@@ -43,12 +44,17 @@ Result<Plan> plan(const VarianceParams& p, const Profile& profile) {
                {{"width", p.width}, {"height", p.height}, {"src_stride", stride}}, {{"RADIUS", p.radius}},
                {{"src", src}, {"variances", to}});
   const double side = 2.0 * p.radius + 1;
-  planner.cost(11.0 * side * side * static_cast<double>(pixels), static_cast<double>(pixels * (bytes_per_pixel(p.format) + 4)));
+  planner.cost(11.0 * side * side * static_cast<double>(pixels),
+               static_cast<double>(pixels * (bytes_per_pixel(p.format) + 4)));
   if (p.variant == VarianceVariant::temporal) {
     const Slot history = resource("history", Format::f32x1, 3 * pixels, false);
     const Slot history_out = resource("history_out", Format::f32x1, 3 * pixels, true);
     planner.pass("variance_temporal", name(p.format), "variance temporal", over, profile.pixels.workgroup,
-                 {{"width", p.width}, {"height", p.height}, {"src_stride", stride}, {"alpha", p.alpha}, {"shortest", p.shortest}},
+                 {{"width", p.width},
+                  {"height", p.height},
+                  {"src_stride", stride},
+                  {"alpha", p.alpha},
+                  {"shortest", p.shortest}},
                  {}, {{"src", src}, {"history", history}, {"history_out", history_out}, {"variances", to}});
     planner.cost(20.0 * static_cast<double>(pixels), static_cast<double>(pixels * (bytes_per_pixel(p.format) + 28)));
   }

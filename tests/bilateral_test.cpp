@@ -17,10 +17,11 @@
 
 namespace luxel {
 namespace in_float {
-using reference::uint;
 using reference::floatBitsToUint;
+using reference::uint;
 using reference::uintBitsToFloat;
 #define FN inline
+#include "kernels/math/exact.h"
 #include "kernels/math/range_weight.h"
 #undef FN
 }  // namespace in_float
@@ -69,7 +70,8 @@ TEST(Bilateral, EveryTermFollowsItsFormulaInDouble) {
     const cases::BilateralImages images = cases::bilateral_images(p, 1);
     const auto out = cases::filter(test_context("cpu:double"), p, images);
     ASSERT_TRUE(out.ok()) << out.status().message();
-    EXPECT_LE(cases::max_difference(out.value().dst, truth::bilateral(p, images).src), formula_bound) << "terms " << terms;
+    EXPECT_LE(cases::max_difference(out.value().dst, truth::bilateral(p, images).src), formula_bound)
+        << "terms " << terms;
   }
 }
 
@@ -121,37 +123,88 @@ TEST(BilateralValidate, NamesFieldValueAndRange) {
       {"BilateralParams.src_stride is 7; expected 64..1048576", [](auto& p) { p.src_stride = 7; }},
       {"BilateralParams.dst_stride is -1; expected 64..1048576", [](auto& p) { p.dst_stride = -1; }},
       {"BilateralParams.sigma_space is nan; expected 0..inf", [=](auto& p) { p.sigma_space = nan; }},
-      {"BilateralParams.sigma_space is 33; expected 0..32, or a radius given (0..96)", [](auto& p) { p.sigma_space = 33; }},
+      {"BilateralParams.sigma_space is 33; expected 0..32, or a radius given (0..96)",
+       [](auto& p) { p.sigma_space = 33; }},
       {"BilateralParams.radius is 97; expected -1..96", [](auto& p) { p.radius = 97; }},
       {"BilateralParams.step is 0; expected 1..16", [](auto& p) { p.step = 0; }},
       {"BilateralParams.levels is 7; expected 1..6",
-       [](auto& p) { p.variant = BilateralVariant::atrous; p.levels = 7; }},
-      {"BilateralParams.taps is 4; expected 3 or 5", [](auto& p) { p.variant = BilateralVariant::atrous; p.taps = 4; }},
-      {"BilateralParams.adaptive is true; expected false but for variant separable", [](auto& p) { p.adaptive = true; }},
+       [](auto& p) {
+         p.variant = BilateralVariant::atrous;
+         p.levels = 7;
+       }},
+      {"BilateralParams.taps is 4; expected 3 or 5",
+       [](auto& p) {
+         p.variant = BilateralVariant::atrous;
+         p.taps = 4;
+       }},
+      {"BilateralParams.adaptive is true; expected false but for variant separable",
+       [](auto& p) { p.adaptive = true; }},
       {"BilateralParams.step is 2; expected 1 with adaptive",
-       [](auto& p) { p.variant = BilateralVariant::separable; p.adaptive = true; p.step = 2; }},
+       [](auto& p) {
+         p.variant = BilateralVariant::separable;
+         p.adaptive = true;
+         p.step = 2;
+       }},
       {"BilateralParams.border is zero; expected clamp, mirror or wrap with adaptive",
-       [](auto& p) { p.variant = BilateralVariant::separable; p.adaptive = true; p.border = Border::zero; }},
+       [](auto& p) {
+         p.variant = BilateralVariant::separable;
+         p.adaptive = true;
+         p.border = Border::zero;
+       }},
       {"BilateralParams.window is circle; expected square but for variant direct",
-       [](auto& p) { p.variant = BilateralVariant::separable; p.window = FilterWindow::circle; }},
+       [](auto& p) {
+         p.variant = BilateralVariant::separable;
+         p.window = FilterWindow::circle;
+       }},
       {"BilateralParams.sigma_range is -1; expected 0..inf", [](auto& p) { p.sigma_range = -1; }},
       {"BilateralParams.sigma_range is nan; expected 0..inf", [=](auto& p) { p.sigma_range = nan; }},
-      {"BilateralParams.format is u32; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4", [](auto& p) { p.format = Format::u32; }},
+      {"BilateralParams.format is u32; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4",
+       [](auto& p) { p.format = Format::u32; }},
       {"BilateralParams.guide_format is f16x2; expected f32x1, f32x2, f32x4, f16x4 or unorm8x4",
-       [](auto& p) { p.range = RangeTerm::guide; p.guide_format = Format::f16x2; }},
-      {"BilateralParams.sigma_depth is 0; expected 1e-06..1e+06", [](auto& p) { p.depth = DepthTerm::plane; p.sigma_depth = 0; }},
-      {"BilateralParams.footprint is nan; expected 1e-09..1000", [=](auto& p) { p.depth = DepthTerm::plane; p.footprint = nan; }},
-      {"BilateralParams.sigma_normal is 0; expected 0.01..4096", [](auto& p) { p.normal = true; p.sigma_normal = 0; }},
+       [](auto& p) {
+         p.range = RangeTerm::guide;
+         p.guide_format = Format::f16x2;
+       }},
+      {"BilateralParams.sigma_depth is 0; expected 1e-06..1e+06",
+       [](auto& p) {
+         p.depth = DepthTerm::plane;
+         p.sigma_depth = 0;
+       }},
+      {"BilateralParams.footprint is nan; expected 1e-09..1000",
+       [=](auto& p) {
+         p.depth = DepthTerm::plane;
+         p.footprint = nan;
+       }},
+      {"BilateralParams.sigma_normal is 0; expected 0.01..4096",
+       [](auto& p) {
+         p.normal = true;
+         p.sigma_normal = 0;
+       }},
       {"BilateralParams.normal_format is f32x1; expected f32x4, f16x4 or unorm8x4",
-       [](auto& p) { p.normal = true; p.normal_format = Format::f32x1; }},
-      {"BilateralParams.sigma_luminance is 0; expected 1e-06..1e+06", [](auto& p) { p.luminance = true; p.sigma_luminance = 0; }},
-      {"BilateralParams.epsilon is 0; expected 1e-30..1e+30", [](auto& p) { p.luminance = true; p.epsilon = 0; }},
+       [](auto& p) {
+         p.normal = true;
+         p.normal_format = Format::f32x1;
+       }},
+      {"BilateralParams.sigma_luminance is 0; expected 1e-06..1e+06",
+       [](auto& p) {
+         p.luminance = true;
+         p.sigma_luminance = 0;
+       }},
+      {"BilateralParams.epsilon is 0; expected 1e-30..1e+30",
+       [](auto& p) {
+         p.luminance = true;
+         p.epsilon = 0;
+       }},
       {"BilateralParams.carry_variance is true; expected false but for variant atrous with luminance",
        [](auto& p) { p.carry_variance = true; }},
       {"BilateralParams.border is 9; expected 0..3", [](auto& p) { p.border = static_cast<Border>(9); }},
       {"BilateralParams.alpha is true; expected false for a format of fewer than four channels",
-       [](auto& p) { p.alpha = true; p.format = Format::f32x1; }},
-      {"BilateralParams.height is 65535; expected stride x height of at most 134217727", [](auto& p) { p.width = p.height = 65535; }},
+       [](auto& p) {
+         p.alpha = true;
+         p.format = Format::f32x1;
+       }},
+      {"BilateralParams.height is 65535; expected stride x height of at most 134217727",
+       [](auto& p) { p.width = p.height = 65535; }},
   };
   BilateralParams good;
   good.width = 64;
@@ -169,7 +222,8 @@ TEST(BilateralValidate, NamesFieldValueAndRange) {
 
 // Nothing is written past an end: every variant and format, with rows longer than the image.
 TEST(BilateralSmall, EveryVariantKeepsWithinItsBuffers) {
-  for (const BilateralVariant variant : {BilateralVariant::direct, BilateralVariant::separable, BilateralVariant::atrous})
+  for (const BilateralVariant variant :
+       {BilateralVariant::direct, BilateralVariant::separable, BilateralVariant::atrous})
     for (const Format format : {Format::f32x1, Format::f32x4, Format::unorm8x4}) {
       BilateralParams p = cases::bilateral_params(19, 7, "cl", format);
       p.variant = variant;
@@ -177,17 +231,23 @@ TEST(BilateralSmall, EveryVariantKeepsWithinItsBuffers) {
       p.levels = 2;
       p.carry_variance = variant == BilateralVariant::atrous;
       p.dst_stride = 23;
-      const std::vector<float> picture(static_cast<std::size_t>(19) * 7 * channels(format), 0.5f), variance(19 * 7, 0.1f);
+      const std::vector<float> picture(static_cast<std::size_t>(19) * 7 * channels(format), 0.5f),
+          variance(19 * 7, 0.1f);
       for (const std::string& device : test_devices()) {
         Context& context = test_context(device);
-        const std::vector<Bytes> got = run_bytes(context, plan(p, context.profile()).value(),
-                                                 {{"src", encode(format, picture)}, {"variance", encode(Format::f32x1, variance)}}, {"dst"});
+        const std::vector<Bytes> got =
+            run_bytes(context, plan(p, context.profile()).value(),
+                      {{"src", encode(format, picture)}, {"variance", encode(Format::f32x1, variance)}}, {"dst"});
         EXPECT_NEAR(decode_at(format, got.at(0), 0), 0.5, 1.0 / 255) << device;
       }
     }
 }
 
-struct OpenCvOutput { const char* file; int d; double sigma_color, sigma_space; };
+struct OpenCvOutput {
+  const char* file;
+  int d;
+  double sigma_color, sigma_space;
+};
 
 TEST(BilateralOpenCv, EqualsItsOutputs) {
   // Both weigh a table of exp with linear interpolation between its entries: 4096 over the range of the picture, which
@@ -213,9 +273,11 @@ TEST(BilateralOpenCv, EqualsItsOutputs) {
     p.range_norm = RangeNorm::l1;
     for (const std::string& device : test_devices()) {
       Context& context = test_context(device);
-      const std::vector<Bytes> got = run_bytes(context, plan(p, context.profile()).value(), {{"src", encode(p.format, picture)}}, {"dst"});
+      const std::vector<Bytes> got =
+          run_bytes(context, plan(p, context.profile()).value(), {{"src", encode(p.format, picture)}}, {"dst"});
       const std::vector<double> result = decode(p.format, got.at(0));
-      EXPECT_LE(cases::max_difference(result, Values(truth.begin(), truth.end())), tolerance) << output.file << " on " << device;
+      EXPECT_LE(cases::max_difference(result, Values(truth.begin(), truth.end())), tolerance)
+          << output.file << " on " << device;
     }
   }
 }

@@ -21,19 +21,21 @@ struct Arguments {
 };
 
 // An image as `width` channels a pixel, of a file with `least` or more; those that it has not are 0.
-Result<std::vector<double>> channels_of(const std::string& option, const std::string& path, const io::Image* like, int least, int count,
-                                        io::Image* whole = nullptr) {
+Result<std::vector<double>> channels_of(const std::string& option, const std::string& path, const io::Image* like,
+                                        int least, int count, io::Image* whole = nullptr) {
   Result<io::Image> read = io::read_image(path);
   if (!read) return read.status();
   const io::Image& image = read.value();
   if (like != nullptr && (image.width != like->width || image.height != like->height))
-    return Status(Code::io, fmt::format("{}: has {}x{} pixels; {} expects those of --color, {}x{}", path, image.width, image.height,
-                                        option, like->width, like->height));
+    return Status(Code::io, fmt::format("{}: has {}x{} pixels; {} expects those of --color, {}x{}", path, image.width,
+                                        image.height, option, like->width, like->height));
   if (image.channels < least)
-    return Status(Code::io, fmt::format("{}: has {} channels; {} expects {} or more", path, image.channels, option, least));
+    return Status(Code::io,
+                  fmt::format("{}: has {} channels; {} expects {} or more", path, image.channels, option, least));
   std::vector<double> values;
   for (std::size_t p = 0; p < image.pixels.size(); p += static_cast<std::size_t>(image.channels))
-    for (int c = 0; c < count; ++c) values.push_back(c < image.channels ? image.pixels[p + static_cast<std::size_t>(c)] : 0.0f);
+    for (int c = 0; c < count; ++c)
+      values.push_back(c < image.channels ? image.pixels[p + static_cast<std::size_t>(c)] : 0.0f);
   if (whole != nullptr) *whole = std::move(read).value();
   return values;
 }
@@ -47,12 +49,15 @@ int run(const Arguments& a) {
     const std::string& path;
     std::vector<double>& values;
     int least, count;
-  } files[] = {{"--color", a.color, render.color, 3, 4}, {"--albedo", a.albedo, render.albedo, 3, 4},
-               {"--normal", a.normal, render.normals, 3, 4}, {"--depth", a.depth, render.depth, 1, 1}};
+  } files[] = {{"--color", a.color, render.color, 3, 4},
+               {"--albedo", a.albedo, render.albedo, 3, 4},
+               {"--normal", a.normal, render.normals, 3, 4},
+               {"--depth", a.depth, render.depth, 1, 1}};
   for (const auto& file : files) {
     if (file.path.empty()) continue;
     const bool first = &file == files;
-    auto values = channels_of(file.option, file.path, first ? nullptr : &image, file.least, file.count, first ? &image : nullptr);
+    auto values =
+        channels_of(file.option, file.path, first ? nullptr : &image, file.least, file.count, first ? &image : nullptr);
     if (!values) return complain(values.status(), true);
     file.values = std::move(values).value();
   }
@@ -72,29 +77,40 @@ int run(const Arguments& a) {
   const auto result = report::denoise(*opened.value(), render, p);
   if (!result) return complain(result.status());
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    image.pixels[i] = static_cast<float>(
-        result.value().color[i / static_cast<std::size_t>(image.channels) * 4 + i % static_cast<std::size_t>(image.channels)]);
+    image.pixels[i] = static_cast<float>(result.value().color[i / static_cast<std::size_t>(image.channels) * 4 +
+                                                              i % static_cast<std::size_t>(image.channels)]);
   io::WriteReport changes;
   if (Status s = io::write_image(a.out, image, &changes); !s) return complain(s);
-  fmt::print("denoise {}x{}, {} levels on {}: {:.1f} ms; {} pixels clamped{}; wrote {}{}\n", image.width, image.height, a.levels,
-             opened.value()->info().id, result.value().ms, result.value().clamped,
-             result.value().not_finite > 0 ? fmt::format(", {} that were not finite replaced", result.value().not_finite) : "",
-             a.out, changes_text(changes));
+  fmt::print(
+      "denoise {}x{}, {} levels on {}: {:.1f} ms; {} pixels clamped{}; wrote {}{}\n", image.width, image.height,
+      a.levels, opened.value()->info().id, result.value().ms, result.value().clamped,
+      result.value().not_finite > 0 ? fmt::format(", {} that were not finite replaced", result.value().not_finite) : "",
+      a.out, changes_text(changes));
   return done;
 }
 
 }  // namespace
 
 void add_denoise(CLI::App& app, int& exit_status) {
-  CLI::App* command = app.add_subcommand("denoise", "make a noisy render smooth: a preset of outlier_clamp, variance and bilateral atrous");
+  CLI::App* command = app.add_subcommand(
+      "denoise", "make a noisy render smooth: a preset of outlier_clamp, variance and bilateral atrous");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--color", a->color, "noisy linear radiance: .exr, .hdr, .png or .npy, 3 or 4 channels")->required()->type_name("FILE");
-  command->add_option("--albedo", a->albedo, "divided out before (at least 0.001) and multiplied after")->type_name("FILE");
+  command->add_option("--color", a->color, "noisy linear radiance: .exr, .hdr, .png or .npy, 3 or 4 channels")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--albedo", a->albedo, "divided out before (at least 0.001) and multiplied after")
+      ->type_name("FILE");
   command->add_option("--normal", a->normal, "unit normals, first three channels, -1..1")->type_name("FILE");
-  command->add_option("--depth", a->depth, "view-space depth, first channel; 1e10 and more is sky, which stays as it is")->type_name("FILE");
-  command->add_option("-o,--out", a->out, "smooth image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")->required()->type_name("FILE");
+  command
+      ->add_option("--depth", a->depth, "view-space depth, first channel; 1e10 and more is sky, which stays as it is")
+      ->type_name("FILE");
+  command->add_option("-o,--out", a->out, "smooth image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
+      ->required()
+      ->type_name("FILE");
   const auto number = [&](const char* name, double& value, double least, double most, const char* meaning) {
-    command->add_option(name, value, fmt::format("{}: {}..{}; default {}", meaning, least, most, value))->check(CLI::Range(least, most))->type_name("NUMBER");
+    command->add_option(name, value, fmt::format("{}: {}..{}; default {}", meaning, least, most, value))
+        ->check(CLI::Range(least, most))
+        ->type_name("NUMBER");
   };
   number("--fov", a->fov, 1, 175, "with --depth: vertical field of view, degrees");
   number("--sigma-depth", a->sigma_depth, 1e-6, 1e6, "footprints off the plane for each pixel of distance");
@@ -102,7 +118,9 @@ void add_denoise(CLI::App& app, int& exit_status) {
   number("--sigma-luminance", a->sigma_luminance, 1e-6, 1e6, "standard deviations");
   number("--sigma-albedo", a->sigma_albedo, 0, 1e6, "differences of albedo that weigh; 0: none do");
   number("--k", a->k, 0, 1e6, "standard deviations of the neighbours beyond which a pixel is clamped");
-  command->add_option("--levels", a->levels, "of the filter: 1..6; default 5")->check(CLI::Range(1, 6))->type_name("INT");
+  command->add_option("--levels", a->levels, "of the filter: 1..6; default 5")
+      ->check(CLI::Range(1, 6))
+      ->type_name("INT");
   command->add_flag("--no-clamp", a->no_clamp, "leave outliers as they are; default off");
   add_device_option(*command, a->device);
   command->callback([a, &exit_status] { exit_status = run(*a); });

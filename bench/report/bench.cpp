@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <luxel/bilateral.h>
 #include <luxel/gaussian_blur.h>
 #include <luxel/mip_build.h>
 
@@ -76,6 +77,29 @@ std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Pr
   return settings;
 }
 
+std::vector<BenchSetting> bilateral_settings(int width, int height, const Profile& profile) {
+  std::vector<BenchSetting> settings;
+  const auto add = [&](const std::string& text, BilateralVariant variant, RangeTerm range, bool guided) {
+    BilateralParams p;
+    p.width = width;
+    p.height = height;
+    p.variant = variant;
+    p.radius = 4;
+    p.range = range;
+    p.sigma_range = 0.2;
+    p.depth = guided ? DepthTerm::plane : DepthTerm::off;
+    p.normal = guided;
+    const Result<Plan> made = plan(p, profile);
+    if (made) settings.push_back({text, made.value(), {"src", "guide", "depth", "normals"}});
+  };
+  add("direct d 9", BilateralVariant::direct, RangeTerm::self, false);
+  add("direct d 9 joint", BilateralVariant::direct, RangeTerm::guide, false);
+  add("direct d 9 depth, normal", BilateralVariant::direct, RangeTerm::off, true);
+  add("separable d 9", BilateralVariant::separable, RangeTerm::self, false);
+  add("atrous 5 levels depth, normal", BilateralVariant::atrous, RangeTerm::off, true);
+  return settings;
+}
+
 std::vector<BenchSetting> mip_build_settings(const Profile& profile) {
   std::vector<BenchSetting> settings;
   const auto add = [&](MipVariant variant, Format format, std::array<int, 3> extent, bool single_pass, int ratio = 2) {
@@ -129,6 +153,10 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
                setting.plan.bytes / s.median * 1e-6, setting.plan.flops / s.median * 1e-6,
                guard.quiet(guard.measure()) ? "" : "  (busy machine)");
   };
+  for (const auto& [width, height] : sizes)
+    if (wanted.wants("bilateral"))
+      for (const BenchSetting& setting : bilateral_settings(width, height, context->profile()))
+        line(fmt::format("bilateral {}x{} {}", width, height, setting.name), setting);
   for (const auto& [width, height] : sizes)
     if (wanted.wants("gaussian_blur"))
       for (const BenchSetting& setting : gaussian_blur_settings(width, height, context->profile()))

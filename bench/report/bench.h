@@ -26,6 +26,9 @@ Status fill(cases::Run& run, const BenchSetting& setting);
 /// Main settings of gaussian_blur at a size: formats, inputs and variants at sigma 4, 25 taps.
 std::vector<BenchSetting> gaussian_blur_settings(int width, int height, const Profile& profile);
 
+/// Main settings of bilateral at a size: variants and terms.
+std::vector<BenchSetting> bilateral_settings(int width, int height, const Profile& profile);
+
 /// Main settings of mip_build: volumes of 128^3, and depth pyramids of 1920x1080.
 std::vector<BenchSetting> mip_build_settings(const Profile& profile);
 

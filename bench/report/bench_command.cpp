@@ -64,7 +64,7 @@ void add_bench(CLI::App& app, int& exit_status) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("bench", "times of each kernel's main settings: median and quartiles, GB/s, GFLOP/s");
-  command->add_option("--kernel", a->kernels, "gaussian_blur or mip_build; may be given again; default: all")
+  command->add_option("--kernel", a->kernels, "gaussian_blur, bilateral, mip_build ...; may be given again; default: all")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
@@ -79,7 +79,7 @@ void add_bench(CLI::App& app, int& exit_status) {
   command->footer(
       "Volumes are 128^3. The microbenchmarks of each kernel (Google Benchmark) are programs of their own in the "
       "build's\n"
-      "bin folder: gaussian_blur_bench, mip_build_bench.");
+      "bin folder: gaussian_blur_bench, bilateral_bench, mip_build_bench.");
   command->callback([a, &exit_status] { exit_status = run(*a); });
 }
 

@@ -25,7 +25,7 @@ void add_report(CLI::App& app, int& exit_status) {
                    "may be given again; default: all")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command->add_option("--kernel", a->settings.kernels, "gaussian_blur, mip_build or cone_trace; may be given again; default: all")
+  command->add_option("--kernel", a->settings.kernels, "gaussian_blur, bilateral, mip_build or cone_trace; may be given again; default: all")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command

@@ -15,8 +15,8 @@ constexpr double least_albedo = 1e-3;
 
 // One plan: inputs by name, its first output, and its time added.
 Result<std::vector<double>> step(Context& context, const Result<Plan>& plan, const std::string& output,
-                                 const std::vector<std::pair<std::string, const std::vector<double>*>>& inputs, double& ms,
-                                 std::vector<double>* counters = nullptr) {
+                                 const std::vector<std::pair<std::string, const std::vector<double>*>>& inputs,
+                                 double& ms, std::vector<double>* counters = nullptr) {
   Result<Run> made = Run::make(context, plan);
   if (!made) return made.status();
   Run& run = made.value();
@@ -87,7 +87,8 @@ Result<Denoised> denoise(Context& context, const NoisyRender& render, const Deno
   filter.range = RangeTerm::off;
   filter.luminance = true;
   filter.sigma_luminance = params.sigma_luminance;
-  std::vector<std::pair<std::string, const std::vector<double>*>> inputs{{"src", &light}, {"variance", &spread.value()}};
+  std::vector<std::pair<std::string, const std::vector<double>*>> inputs{{"src", &light},
+                                                                         {"variance", &spread.value()}};
   if (!render.depth.empty()) {
     filter.depth = DepthTerm::plane;
     filter.sigma_depth = params.sigma_depth;

@@ -20,18 +20,18 @@ struct NoisyRender {
 };
 
 struct DenoiseParams {
-  double footprint = 0.001;     // width of a pixel at depth 1
+  double footprint = 0.001;  // width of a pixel at depth 1
   double sigma_depth = 1, sigma_normal = 64, sigma_luminance = 6;
-  double sigma_albedo = 0.02;   // differences of albedo weigh too; 0: they do not
+  double sigma_albedo = 0.02;  // differences of albedo weigh too; 0: they do not
   int levels = 5;
-  bool clamp = true;            // outlier_clamp first
-  double k = 4;                 // its deviations
-  int radius = 3;               // its window
+  bool clamp = true;  // outlier_clamp first
+  double k = 4;       // its deviations
+  int radius = 3;     // its window
 };
 
 struct Denoised {
-  std::vector<double> color;  // 4 channels
-  double ms = 0;              // of all kernels
+  std::vector<double> color;                  // 4 channels
+  double ms = 0;                              // of all kernels
   std::uint32_t clamped = 0, not_finite = 0;  // pixels
 };
 

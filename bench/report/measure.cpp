@@ -5,6 +5,7 @@
 
 #include "bench/report/child.h"
 #include "bench/report/cones.h"
+#include "bench/report/filters.h"
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
@@ -15,6 +16,7 @@
 #include "bench/report/screens.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
+#include "tests/cases/bilateral_cases.h"
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
@@ -55,6 +57,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, gaussian_peers(session));
     append(jobs, stability_jobs(session, cases::gaussian_blur_cases()));
     if (first) append(jobs, gaussian_pictures(session, files));
+  }
+  if (settings.wants("bilateral")) {
+    append(jobs, denoise_grid(session, missing));
+    append(jobs, filter_grid(session));
+    append(jobs, filter_left_out(session));
+    append(jobs, filter_peers(session));
+    append(jobs, stability_jobs(session, cases::bilateral_cases()));
   }
   if (settings.wants("mip_build")) {
     const MipScenes scenes = mip_scenes(settings, files, missing);

@@ -22,7 +22,8 @@ struct Settings {
 
 /// Kernels that the report measures.
 inline const std::vector<std::string>& measured_kernels() {
-  static const std::vector<std::string> names{"gaussian_blur", "mip_build", "voxelize", "cone_trace", "hiz_ssr"};
+  static const std::vector<std::string> names{"gaussian_blur", "bilateral",  "mip_build",
+                                              "voxelize",      "cone_trace", "hiz_ssr"};
   return names;
 }
 

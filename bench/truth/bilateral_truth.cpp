@@ -98,7 +98,8 @@ class Filter {
       w = h[std::abs(dx) / step_] * h[std::abs(dy) / step_];
     }
     if (p_.range == RangeTerm::self)
-      w *= std::exp(-apart2(m_.src, n, n == 4 && !p_.alpha ? 3 : n, x, y, qx, qy) / (2 * p_.sigma_range * p_.sigma_range));
+      w *= std::exp(-apart2(m_.src, n, n == 4 && !p_.alpha ? 3 : n, x, y, qx, qy) /
+                    (2 * p_.sigma_range * p_.sigma_range));
     if (p_.range == RangeTerm::guide) {
       const int g = channels(p_.guide_format);
       w *= std::exp(-apart2(m_.guide, g, std::min(g, 3), x, y, qx, qy) / (2 * p_.sigma_range * p_.sigma_range));

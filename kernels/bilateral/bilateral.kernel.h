@@ -78,68 +78,67 @@ KERNEL(bilateral) {
         if (BORDER == BORDER_ZERO && (y + down < 0 || y + down >= params.height)) continue;
         const int row = border_index(BORDER, y + down, params.height);
         const int row2 = border_index(BORDER, y + down + 1, params.height);
-        for (int start = -COLUMNS; start <= COLUMNS; start += CHUNK) {
-            UNROLL for (int k = 0; k < CHUNK; ++k) {
-                const int i = start + k;
-                if (i > COLUMNS) continue;
-                const int across = first_of(i);
-                const bool pair = is_pair(i) || is_pair(j);
-                const int tx = x + across;
-                const int tx2 = is_pair(i) ? tx + 1 : tx;
-                const int ty2 = is_pair(i) ? row : row2;
-                ARRAY(wide, tap, COLOURS)
-                ARRAY(wide, tap_colour, GUIDES + 1)
-                ARRAY(wide, tap_normal, 3)
-                wide tap_depth, tap_luminance, tap_variance, tap_bias;
-                UNROLL for (int c = 0; c < COLOURS; ++c) tap[c] = plane_tap(ctx, c, tx, row, tx2, ty2, pair);
-                if (RANGE == 2) {
-                    UNROLL for (int c = 0; c < GUIDES; ++c)
-                        tap_colour[c] = guided_tap(ctx, params.guide + c, tx, row, tx2, ty2, pair);
+        for (int i = -COLUMNS; i <= COLUMNS; ++i) {
+            const int across = first_of(i);
+            const bool pair = is_pair(i) || is_pair(j);
+            const int tx = x + across;
+            const int tx2 = is_pair(i) ? tx + 1 : tx;
+            const int ty2 = is_pair(i) ? row : row2;
+            ARRAY(wide, tap, COLOURS)
+            ARRAY(wide, tap_colour, GUIDES + 1)
+            ARRAY(wide, tap_normal, 3)
+            wide tap_depth, tap_luminance, tap_variance, tap_bias;
+            UNROLL for (int c = 0; c < COLOURS; ++c) tap[c] = plane_tap(ctx, c, tx, row, tx2, ty2, pair);
+            if (RANGE == 2) {
+                UNROLL for (int c = 0; c < GUIDES; ++c)
+                    tap_colour[c] = guided_tap(ctx, params.guide + c, tx, row, tx2, ty2, pair);
+            }
+            if (BIAS != 0) tap_bias = guided_tap(ctx, params.bias, tx, row, tx2, ty2, pair);
+            if (DEPTH != 0) tap_depth = guided_tap(ctx, params.depth, tx, row, tx2, ty2, pair);
+            if (LUMINANCE != 0) tap_luminance = guided_tap(ctx, params.luminance, tx, row, tx2, ty2, pair);
+            if (CARRY != 0) tap_variance = guided_tap(ctx, params.variance, tx, row, tx2, ty2, pair);
+            if (NORMAL != 0) {
+                UNROLL for (int c = 0; c < 3; ++c)
+                    tap_normal[c] = guided_tap(ctx, params.normal + c, tx, row, tx2, ty2, pair);
+            }
+            UNROLL for (int b = 0; b < BLOCK; ++b) {
+                const int t = j - b;
+                if (t < -ROWS || t > ROWS || i * i + t * t > REACH || (i == 0 && t == 0)) continue;
+                wide e = wide_splat(table(spatial, max(i, -i)) + table(spatial, max(t, -t)));
+                if (BIAS != 0) e = e + tap_bias;
+                if (RANGE != 0) {
+                    wide distance2 = wide_splat(0.0f);
+                    UNROLL for (int c = 0; c < (RANGE == 2 ? GUIDES : COLOURS); ++c) {
+                        wide d = RANGE == 2 ? tap_colour[c] - colour[b * (GUIDES + 1) + c]
+                                            : tap[c] - centre[b * COLOURS + c];
+                        distance2 = distance2 + (L1 != 0 ? wide_abs(d) : d * d);
+                    }
+                    if (L1 != 0) distance2 = distance2 * distance2;
+                    e = e - params.range_factor * distance2;
                 }
-                if (BIAS != 0) tap_bias = guided_tap(ctx, params.bias, tx, row, tx2, ty2, pair);
-                if (DEPTH != 0) tap_depth = guided_tap(ctx, params.depth, tx, row, tx2, ty2, pair);
-                if (LUMINANCE != 0) tap_luminance = guided_tap(ctx, params.luminance, tx, row, tx2, ty2, pair);
-                if (CARRY != 0) tap_variance = guided_tap(ctx, params.variance, tx, row, tx2, ty2, pair);
+                if (DEPTH != 0) {
+                    const float dx = is_pair(i) ? float(across) + 0.5f : float(across);
+                    const float dy = is_pair(j) ? float(down) + 0.5f : float(down - b * STEP);
+                    wide slope = dx * depth[b * 4 + 1] + dy * depth[b * 4 + 2];
+                    wide apart = wide_abs((tap_depth - depth[b * 4]) - (DEPTH == 1 ? slope : wide_splat(0.0f)));
+                    if (DEPTH == 1)
+                        e = e - (1.44269504f / (params.depth_scale * sqrt(dx * dx + dy * dy) + 4.76837158e-7f)) *
+                                    (apart * depth[b * 4 + 3]);
+                    else
+                        e = e - 1.44269504f * apart / (params.depth_scale * wide_abs(slope) + depth[b * 4 + 3]);
+                }
                 if (NORMAL != 0) {
-                    UNROLL for (int c = 0; c < 3; ++c)
-                        tap_normal[c] = guided_tap(ctx, params.normal + c, tx, row, tx2, ty2, pair);
+                    wide cosine = tap_normal[0] * normal[b * 3] + tap_normal[1] * normal[b * 3 + 1] +
+                                  tap_normal[2] * normal[b * 3 + 2];
+                    e = e + params.normal_power * wide_log2_cosine(cosine);
                 }
-                UNROLL for (int b = 0; b < BLOCK; ++b) {
-                    const int t = j - b;
-                    if (t < -ROWS || t > ROWS || i * i + t * t > REACH || (i == 0 && t == 0)) continue;
-                    wide e = wide_splat(table(spatial, max(i, -i)) + table(spatial, max(t, -t)));
-                    if (BIAS != 0) e = e + tap_bias;
-                    if (RANGE != 0) {
-                        wide distance2 = wide_splat(0.0f);
-                        UNROLL for (int c = 0; c < (RANGE == 2 ? GUIDES : COLOURS); ++c) {
-                            wide d = RANGE == 2 ? tap_colour[c] - colour[b * (GUIDES + 1) + c] : tap[c] - centre[b * COLOURS + c];
-                            distance2 = distance2 + (L1 != 0 ? wide_abs(d) : d * d);
-                        }
-                        if (L1 != 0) distance2 = distance2 * distance2;
-                        e = e - params.range_factor * distance2;
-                    }
-                    if (DEPTH != 0) {
-                        const float dx = is_pair(i) ? float(across) + 0.5f : float(across);
-                        const float dy = is_pair(j) ? float(down) + 0.5f : float(down - b * STEP);
-                        wide slope = dx * depth[b * 4 + 1] + dy * depth[b * 4 + 2];
-                        wide apart = wide_abs((tap_depth - depth[b * 4]) - (DEPTH == 1 ? slope : wide_splat(0.0f)));
-                        if (DEPTH == 1)
-                            e = e - (1.44269504f / (params.depth_scale * sqrt(dx * dx + dy * dy) + 4.76837158e-7f)) * (apart * depth[b * 4 + 3]);
-                        else
-                            e = e - 1.44269504f * apart / (params.depth_scale * wide_abs(slope) + depth[b * 4 + 3]);
-                    }
-                    if (NORMAL != 0) {
-                        wide cosine = tap_normal[0] * normal[b * 3] + tap_normal[1] * normal[b * 3 + 1] + tap_normal[2] * normal[b * 3 + 2];
-                        e = e + params.normal_power * wide_log2_cosine(cosine);
-                    }
-                    if (LUMINANCE != 0) e = e - luminance[b * 2 + 1] * wide_abs(tap_luminance - luminance[b * 2]);
-                    wide w = wide_weight(e);
-                    if (ADAPTIVE != 0 && pair) w = w + w;
-                    weight[b] = weight[b] + w;
-                    UNROLL for (int c = 0; c < COLOURS; ++c)
-                        sum[b * COLOURS + c] = sum[b * COLOURS + c] + w * (tap[c] - centre[b * COLOURS + c]);
-                    if (CARRY != 0) variance[b] = variance[b] + (w * w) * tap_variance;
-                }
+                if (LUMINANCE != 0) e = e - luminance[b * 2 + 1] * wide_abs(tap_luminance - luminance[b * 2]);
+                wide w = wide_weight(e);
+                if (ADAPTIVE != 0 && pair) w = w + w;
+                weight[b] = weight[b] + w;
+                UNROLL for (int c = 0; c < COLOURS; ++c)
+                    sum[b * COLOURS + c] = sum[b * COLOURS + c] + w * (tap[c] - centre[b * COLOURS + c]);
+                if (CARRY != 0) variance[b] = variance[b] + (w * w) * tap_variance;
             }
         }
     }

@@ -1,5 +1,5 @@
 /* BUILD
-   math: border range_weight wide_weight
+   math: border exact range_weight wide_weight
    module planes: CHANNELS=1 PLANES=READ DST=f32x1 DST_CHANNELS=0
    module f32x1: CHANNELS=1 PLANES=READ DST=f32x1 DST_CHANNELS=1
    module f32x2: CHANNELS=1 PLANES=READ DST=f32x2 DST_CHANNELS=2
@@ -49,8 +49,7 @@
     _(14, int, ADAPTIVE, 0)  /* taps beyond this one are pairs of pixels, averaged; 0: none */
 #define SHAPE(_) \
     _(16, int, LANES, 16)    /* neighbouring pixels an invocation computes */ \
-    _(17, int, BLOCK, 1)     /* results an invocation computes along a column, STEP apart */ \
-    _(18, int, CHUNK, 1)     /* taps along a row that are unrolled */
+    _(17, int, BLOCK, 1)     /* results an invocation computes along a column, STEP apart */
 #define BINDINGS(_) \
     _(PLANES, 0, f32x1, planes) /* COLOURS planes, one below the other */ \
     _(PLANES, 1, f32x1, guides) \

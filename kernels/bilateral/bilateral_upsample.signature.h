@@ -1,5 +1,5 @@
 /* BUILD
-   math: range_weight
+   math: exact range_weight
    module f32x1: CHANNELS=1 PIXEL=f32x1 NORMALS=0
    module f32x4: PIXEL=f32x4 NORMALS=0
    module f16x4: PIXEL=f16x4 NORMALS=0

@@ -2,29 +2,29 @@
 // compiler does not find them again in a loop over their parts: there each function is spelled for vectors as well.
 #if defined(OCL_JOIN) && LANES > 1
 #define WIDE_INT OCL_JOIN(int, LANES)
-#define TO_WIDE OCL_JOIN(convert_float, LANES)
-#define TO_WIDE_INT OCL_JOIN(convert_int, LANES)
 FN wide bits_to_wide(WIDE_INT v) { return *(const wide*)&v; }
 FN WIDE_INT wide_to_bits(wide v) { return *(const WIDE_INT*)&v; }
+#define WHOLE 12582912.0f  // a sum with 1.5 2^23 has no fraction; its lowest bits are the number
 
-FN wide wide_abs(wide w) { return fabs(w); }
+FN wide wide_abs(wide w) { return bits_to_wide(wide_to_bits(w) & 0x7fffffff); }
 FN wide wide_weight(wide e) {
-    const wide y = select((wide)(-64.0f), e, e >= -64.0f);
-    const WIDE_INT k = TO_WIDE_INT(y - 0.5f);
-    const wide t = y - TO_WIDE(k);
+    const wide y = e >= -64.0f ? e : (wide)(-64.0f);
+    const wide n = y + WHOLE;
+    const wide t = y - (n - WHOLE);
     wide p = 0.0555073374f + t * (0.0096715128f + t * 0.0013264727f);
     p = 1.0f + t * (0.6931469776f + t * (0.2402224208f + t * p));
-    return select((wide)(0.0f), p * bits_to_wide((127 + k) << 23), e >= -64.0f);
+    return e >= -64.0f ? p * bits_to_wide((wide_to_bits(n) << 23) + 0x3f800000) : (wide)(0.0f);
 }
 FN wide wide_log2_cosine(wide d) {
-    const wide a = select((wide)(1.0f), d, d >= 8.67361738e-19f);
+    const wide a = d >= 8.67361738e-19f ? d : (wide)(1.0f);
     const WIDE_INT k = (wide_to_bits(a) - 0x3f3504f3) >> 23;
     const wide r = a * bits_to_wide((127 - k) << 23);
     const wide z = (r - 1.0f) / (r + 1.0f);
     const wide q = z * z;
     wide series = 0.142857142857f + q * (0.111111111111f + q * 0.090909090909f);
     series = 1.0f + q * (0.333333333333f + q * (0.2f + q * series));
-    return select((wide)(-1.0e30f), TO_WIDE(k) + 2.88539008177793f * z * series, d >= 8.67361738e-19f);
+    const wide exponent = bits_to_wide(wide_to_bits((wide)(WHOLE)) + k) - WHOLE;
+    return d >= 8.67361738e-19f ? exponent + 2.88539008177793f * z * series : (wide)(-1.0e30f);
 }
 #else
 FN wide wide_abs(wide w) {

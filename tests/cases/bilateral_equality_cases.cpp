@@ -10,7 +10,10 @@ namespace luxel::cases {
 namespace {
 
 Case equal_to_cpp(std::string name, const BilateralParams& p) {
-  return {"", "bits, " + name, "the same bits as the C++ execution in float (values that differ)", 0,
+  return {"",
+          "bits, " + name,
+          "the same bits as the C++ execution in float (values that differ)",
+          0,
           [=](Context& context) -> Result<double> {
             const BilateralImages images = bilateral_images(p, 20, true);
             const auto out = filter(context, p, images);
@@ -21,7 +24,8 @@ Case equal_to_cpp(std::string name, const BilateralParams& p) {
             if (!expected) return expected.status();
             return count_different(out.value().dst, expected.value().dst);
           },
-          false, not_double};
+          false,
+          not_double};
 }
 
 }  // namespace
@@ -31,7 +35,8 @@ void add_bilateral_equality_cases(std::vector<Case>& cases) {
     cases.push_back(equal_to_cpp(fmt::format("terms '{}'", terms), bilateral_params(67, 43, terms)));
   for (const Format format : pixel_formats)
     for (const Border border : borders) {
-      cases.push_back(equal_to_cpp(fmt::format("{}, {}", name(format), name(border)), bilateral_params(43, 29, "c", format, border)));
+      cases.push_back(equal_to_cpp(fmt::format("{}, {}", name(format), name(border)),
+                                   bilateral_params(43, 29, "c", format, border)));
       // A format and a border meet only in the loads and stores: a row and a column of the table nearly say it all.
       cases.back().slow = format != Format::f32x4 && border != Border::clamp;
     }

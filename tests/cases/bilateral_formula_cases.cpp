@@ -23,7 +23,10 @@ constexpr double formula_bound = 2e-6;
 constexpr double guided_bound = 1e-5;
 
 Case follows(std::string name, const BilateralParams& p, double bound, bool slow = false) {
-  return {"", std::move(name), "within rounding of the formula in double with exp and pow (largest difference)", bound,
+  return {"",
+          std::move(name),
+          "within rounding of the formula in double with exp and pow (largest difference)",
+          bound,
           [=](Context& context) -> Result<double> {
             const BilateralImages images = bilateral_images(p, 3);
             const auto out = filter(context, p, images);
@@ -42,7 +45,8 @@ void add_terms(std::vector<Case>& cases) {
   for (const Border border : {Border::clamp, Border::mirror, Border::wrap, Border::zero})
     for (const std::string terms : {"c", "gdn"}) {
       const BilateralParams p = bilateral_params(23, 19, terms, Format::f32x1, border);
-      cases.push_back(follows(fmt::format("formula, border {}, terms '{}'", static_cast<int>(border), terms), p, guided_bound));
+      cases.push_back(
+          follows(fmt::format("formula, border {}, terms '{}'", static_cast<int>(border), terms), p, guided_bound));
     }
 }
 
@@ -97,16 +101,16 @@ void add_atrous(std::vector<Case>& cases) {
 void add_gaussian(std::vector<Case>& cases) {
   for (const Format format : {Format::f32x1, Format::f32x4})
     cases.push_back({"", fmt::format("sigma_range infinite, {}", name(format)),
-                     "with a square window, what gaussian_blur computes (largest difference from its truth)", formula_bound,
-                     [=](Context& context) -> Result<double> {
+                     "with a square window, what gaussian_blur computes (largest difference from its truth)",
+                     formula_bound, [=](Context& context) -> Result<double> {
                        BilateralParams p = bilateral_params(33, 27, "c", format);
                        p.sigma_range = inf;
                        p.alpha = channels(format) == 4;
                        const BilateralImages images = bilateral_images(p, 4);
                        const auto out = filter(context, p, images);
                        if (!out) return out.status();
-                       return max_difference(out.value().dst, truth::gaussian(images.src, 33, 27, channels(format), p.sigma_space,
-                                                                              Border::clamp, p.radius));
+                       return max_difference(out.value().dst, truth::gaussian(images.src, 33, 27, channels(format),
+                                                                              p.sigma_space, Border::clamp, p.radius));
                      }});
 }
 
@@ -122,14 +126,17 @@ void add_approximations(std::vector<Case>& cases) {
   };
   BilateralParams p = bilateral_params(61, 43, "c");
   p.variant = BilateralVariant::separable;
-  apart("separable beside direct", "rows, then columns, is within 0.06 of the filter on two levels with noise (largest difference)", p, 0.06);
+  apart("separable beside direct",
+        "rows, then columns, is within 0.06 of the filter on two levels with noise (largest difference)", p, 0.06);
   p.adaptive = true;
   p.sigma_space = 4;
   p.radius = 12;
-  apart("adaptive beside direct", "pairs of averaged pixels in the outer half: within 0.1 (largest difference)", p, 0.1);
+  apart("adaptive beside direct", "pairs of averaged pixels in the outer half: within 0.1 (largest difference)", p,
+        0.1);
   p = bilateral_params(61, 43, "c");
   p.variant = BilateralVariant::separable;
-  cases.push_back({"", "separable, either order", "rows first and columns first differ by at most 0.03 (largest difference)", 0.03,
+  cases.push_back({"", "separable, either order",
+                   "rows first and columns first differ by at most 0.03 (largest difference)", 0.03,
                    [=](Context& context) -> Result<double> {
                      const BilateralImages images = bilateral_images(p, 3);
                      BilateralParams q = p;

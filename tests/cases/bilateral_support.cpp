@@ -56,10 +56,9 @@ Result<Filtered> filter(Context& context, const BilateralParams& p, const Bilate
   const int stride = p.dst_stride > 0 ? p.dst_stride : p.width;
   const Values nothing((static_cast<std::size_t>(p.height - 1) * stride + p.width) * channels(p.format), unwritten);
   const Values zeros(4, 0.0);
-  const std::pair<const char*, const Values*> inputs[] = {{"src", &images.src},          {"guide", &images.guide},
-                                                          {"depth", &images.depth},      {"normals", &normals},
-                                                          {"variance", &images.variance}, {"dst", &nothing},
-                                                          {"counters", &zeros}};
+  const std::pair<const char*, const Values*> inputs[] = {
+      {"src", &images.src},           {"guide", &images.guide}, {"depth", &images.depth}, {"normals", &normals},
+      {"variance", &images.variance}, {"dst", &nothing},        {"counters", &zeros}};
   const auto has = [&](std::string_view name) {
     for (const Resource& r : run.plan().resources)
       if (r.name == name) return true;
@@ -70,8 +69,8 @@ Result<Filtered> filter(Context& context, const BilateralParams& p, const Bilate
       if (Status status = run.write(name, *values); !status) return status;
   if (Status status = run.go(); !status) return status;
   Filtered out;
-  const std::pair<const char*, Values*> outputs[] = {{"dst", &out.dst}, {"variance_out", &out.variance_out},
-                                                     {"counters", &out.counters}};
+  const std::pair<const char*, Values*> outputs[] = {
+      {"dst", &out.dst}, {"variance_out", &out.variance_out}, {"counters", &out.counters}};
   for (const auto& [name, values] : outputs)
     if (has(name)) {
       Result<Values> read = run.read(name);

@@ -66,8 +66,9 @@ Case one_pixel(std::string what, double value, const BilateralParams& params) {
   BilateralParams p = params;
   p.count = true;
   return {"", fmt::format("one {}", what),
-          "the pixel stays; others are finite, and beyond R bit for bit as without it; it is counted (pixels that break it)", 0,
-          [=](Context& context) -> Result<double> {
+          "the pixel stays; others are finite, and beyond R bit for bit as without it; it is counted (pixels that "
+          "break it)",
+          0, [=](Context& context) -> Result<double> {
             BilateralImages images = bilateral_images(p, 6);
             const int n = channels(p.format);
             const auto without = filter(context, p, images);
@@ -95,7 +96,8 @@ Case one_pixel(std::string what, double value, const BilateralParams& params) {
 void add_one_pixel_cases(std::vector<Case>& cases) {
   for (const std::string terms : {"", "c", "gdn", "l"})
     for (const auto& [what, value] : {std::pair{"NaN", nan}, {"infinity", static_cast<double>(HUGE_VAL)}}) {
-      cases.push_back(one_pixel(fmt::format("{}, terms '{}'", what, terms), value, bilateral_params(side, side, terms)));
+      cases.push_back(
+          one_pixel(fmt::format("{}, terms '{}'", what, terms), value, bilateral_params(side, side, terms)));
       BilateralParams p = bilateral_params(side, side, terms, Format::f32x1);
       p.variant = BilateralVariant::atrous;
       p.levels = 2;
@@ -108,7 +110,8 @@ void add_one_pixel_cases(std::vector<Case>& cases) {
 }
 
 void add_steps(std::vector<Case>& cases) {
-  cases.push_back({"", "HDR step of 1e6", "neither side takes from the other: the dark side stays in 0..1 (largest value there)", 1,
+  cases.push_back({"", "HDR step of 1e6",
+                   "neither side takes from the other: the dark side stays in 0..1 (largest value there)", 1,
                    [](Context& context) -> Result<double> {
                      const BilateralParams p = bilateral_params(side, side, "c", Format::f32x1);
                      BilateralImages images = bilateral_images(p, 7);
@@ -122,19 +125,19 @@ void add_steps(std::vector<Case>& cases) {
                        if (i % side < centre && !(out.value().dst[i] <= most)) most = out.value().dst[i];
                      return most;
                    }});
-  cases.push_back({"", "weights that underflow",
-                   "sigma_range of 1/40 of the steps between pixels: nothing but the input is left, no NaN, no denormal "
-                   "(largest difference)",
-                   0,
-                   [](Context& context) -> Result<double> {
-                     BilateralParams p = bilateral_params(side, side, "c", Format::f32x1);
-                     p.sigma_range = 1.0 / 40;
-                     BilateralImages images = bilateral_images(p, 8);
-                     for (int i = 0; i < side * side; ++i) images.src[i] = i;
-                     const auto out = filter(context, p, images);
-                     if (!out) return out.status();
-                     return max_difference(out.value().dst, images.src);
-                   }});
+  cases.push_back(
+      {"", "weights that underflow",
+       "sigma_range of 1/40 of the steps between pixels: nothing but the input is left, no NaN, no denormal "
+       "(largest difference)",
+       0, [](Context& context) -> Result<double> {
+         BilateralParams p = bilateral_params(side, side, "c", Format::f32x1);
+         p.sigma_range = 1.0 / 40;
+         BilateralImages images = bilateral_images(p, 8);
+         for (int i = 0; i < side * side; ++i) images.src[i] = i;
+         const auto out = filter(context, p, images);
+         if (!out) return out.status();
+         return max_difference(out.value().dst, images.src);
+       }});
 }
 
 void add_sizes(std::vector<Case>& cases) {
@@ -154,7 +157,8 @@ void add_sizes(std::vector<Case>& cases) {
 }
 
 void add_strides(std::vector<Case>& cases) {
-  for (const BilateralVariant variant : {BilateralVariant::direct, BilateralVariant::separable, BilateralVariant::atrous})
+  for (const BilateralVariant variant :
+       {BilateralVariant::direct, BilateralVariant::separable, BilateralVariant::atrous})
     cases.push_back({"", fmt::format("strides 40 and 37 for 29, variant {}", static_cast<int>(variant)),
                      "what lies between the rows is neither read nor written (NaN there; values that break it)", 0,
                      [=](Context& context) -> Result<double> {

@@ -37,7 +37,10 @@ BilateralImages images() { return bilateral_images(bilateral_params(width, heigh
 
 // The largest difference from C++ float in any bit, as a count.
 Case equal_bits(std::string kernel, std::string name, std::function<Result<Values>(Context&)> compute) {
-  return {std::move(kernel), "bits, " + name, "the same bits as the C++ execution in float (values that differ)", 0,
+  return {std::move(kernel),
+          "bits, " + name,
+          "the same bits as the C++ execution in float (values that differ)",
+          0,
           [=](Context& context) -> Result<double> {
             const auto cpu = Context::open("cpu:float");
             if (!cpu) return cpu.status();
@@ -46,7 +49,8 @@ Case equal_bits(std::string kernel, std::string name, std::function<Result<Value
             if (!b) return b.status();
             return count_different(a.value(), b.value());
           },
-          false, not_double};
+          false,
+          not_double};
 }
 
 Result<Values> mask_of(Context& context, const BilateralImages& m) {
@@ -71,12 +75,16 @@ Result<Values> gridded(Context& context, const Values& src, double cell, double 
 }
 
 void add_mask(std::vector<Case>& cases) {
-  cases.push_back(equal_bits("discontinuity_mask", "depth and normals", [](Context& c) { return mask_of(c, images()); }));
-  cases.push_back({"discontinuity_mask", "symmetric", "both pixels hold the same verdict of the edge between them (pairs that do not)", 0,
+  cases.push_back(
+      equal_bits("discontinuity_mask", "depth and normals", [](Context& c) { return mask_of(c, images()); }));
+  cases.push_back({"discontinuity_mask", "symmetric",
+                   "both pixels hold the same verdict of the edge between them (pairs that do not)", 0,
                    [](Context& context) -> Result<double> {
                      const auto mask = mask_of(context, images());
                      if (!mask) return mask.status();
-                     const auto bit = [&](int x, int y, int b) { return static_cast<int>(mask.value()[y * width + x]) >> b & 1; };
+                     const auto bit = [&](int x, int y, int b) {
+                       return static_cast<int>(mask.value()[y * width + x]) >> b & 1;
+                     };
                      double bad = 0;
                      for (int y = 0; y < height; ++y)
                        for (int x = 0; x < width; ++x) {
@@ -86,8 +94,9 @@ void add_mask(std::vector<Case>& cases) {
                      return bad;
                    }});
   cases.push_back({"discontinuity_mask", "a slanted floor and a step",
-                   "a floor has no edge inside, up to its horizon; a step of a tenth, or a turn of 90 degrees, has one (pixels wrong)", 0,
-                   [](Context& context) -> Result<double> {
+                   "a floor has no edge inside, up to its horizon; a step of a tenth, or a turn of 90 degrees, has one "
+                   "(pixels wrong)",
+                   0, [](Context& context) -> Result<double> {
                      BilateralImages m = images();
                      for (int i = 0; i < width * height; ++i) {
                        const int x = i % width, y = i / width;
@@ -119,7 +128,8 @@ void add_mask(std::vector<Case>& cases) {
                      double bad = 0;
                      for (int y = 0; y < height; ++y)
                        for (int x = 0; x + 1 < width; ++x)
-                         bad += (static_cast<int>(mask.value()[y * width + x]) & 1) != (x == 9 || (y == 20 && (x == 19 || x == 20)));
+                         bad += (static_cast<int>(mask.value()[y * width + x]) & 1) !=
+                                (x == 9 || (y == 20 && (x == 19 || x == 20)));
                      return bad;
                    }});
 }
@@ -131,13 +141,15 @@ void add_discontinuity(std::vector<Case>& cases) {
     if (!mask) return mask.status();
     return stopped(c, m.src, mask.value());
   }));
-  cases.push_back({"bilateral", "discontinuity stops at edges", "an edge across the image lets nothing through (largest value on the dark side)", 0,
+  cases.push_back({"bilateral", "discontinuity stops at edges",
+                   "an edge across the image lets nothing through (largest value on the dark side)", 0,
                    [](Context& context) -> Result<double> {
                      Values src(width * height * 4, 0.0), mask(width * height, 0.0);
                      for (int i = 0; i < width * height; ++i) {
                        const int x = i % width, y = i / width;
                        for (int c = 0; c < 4; ++c) src[4 * i + c] = x > 20 ? 1e6 : 0;
-                       mask[i] = (x == width - 1 || x == 20 ? 1 : 0) + (y == height - 1 ? 2 : 0) + (x == 0 || x == 21 ? 4 : 0) + (y == 0 ? 8 : 0);
+                       mask[i] = (x == width - 1 || x == 20 ? 1 : 0) + (y == height - 1 ? 2 : 0) +
+                                 (x == 0 || x == 21 ? 4 : 0) + (y == 0 ? 8 : 0);
                      }
                      const auto out = stopped(context, src, mask);
                      if (!out) return out.status();
@@ -146,7 +158,8 @@ void add_discontinuity(std::vector<Case>& cases) {
                        if (i % width <= 20 && !(out.value()[4 * i] <= most)) most = out.value()[4 * i];
                      return most;
                    }});
-  cases.push_back({"bilateral", "discontinuity, one NaN", "the pixel stays, all others are finite (values that break it)", 0,
+  cases.push_back({"bilateral", "discontinuity, one NaN",
+                   "the pixel stays, all others are finite (values that break it)", 0,
                    [](Context& context) -> Result<double> {
                      BilateralImages m = images();
                      const auto mask = mask_of(context, m);
@@ -165,15 +178,17 @@ void add_discontinuity(std::vector<Case>& cases) {
 void add_grid(std::vector<Case>& cases) {
   cases.push_back(equal_bits("bilateral", "variant grid", [](Context& c) { return gridded(c, images().src, 5, 0.1); }));
   // Coordinates are rounded to 2^-24 of 41 pixels, averages of equal values by some roundings.
-  cases.push_back({"bilateral", "grid, a constant image", "stays constant to rounding (largest difference)", 1e-6, [](Context& context) -> Result<double> {
+  cases.push_back({"bilateral", "grid, a constant image", "stays constant to rounding (largest difference)", 1e-6,
+                   [](Context& context) -> Result<double> {
                      const Values src = quantise(Values(width * height * 4, 0.7), Format::f32x4);
                      const auto out = gridded(context, src, 4, 0.1);
                      if (!out) return out.status();
                      return max_difference(out.value(), src);
                    }});
   cases.push_back({"bilateral", "grid beside direct",
-                   "on two levels 0.35 apart with noise, within 0.12 of the filter of the grid's own width (largest difference of colour)", 0.12,
-                   [](Context& context) -> Result<double> {
+                   "on two levels 0.35 apart with noise, within 0.12 of the filter of the grid's own width (largest "
+                   "difference of colour)",
+                   0.12, [](Context& context) -> Result<double> {
                      BilateralParams p = bilateral_params(width, height, "c");
                      p.sigma_space = 3;
                      p.radius = 9;
@@ -183,13 +198,15 @@ void add_grid(std::vector<Case>& cases) {
                      if (!out) return out.status();
                      return max_difference(out.value(), truth::bilateral(p, m).src);
                    }});
-  cases.push_back({"bilateral", "grid, one NaN", "the pixel stays, all others are finite (values that break it)", 0, [](Context& context) -> Result<double> {
+  cases.push_back({"bilateral", "grid, one NaN", "the pixel stays, all others are finite (values that break it)", 0,
+                   [](Context& context) -> Result<double> {
                      Values src = images().src;
                      src[4 * 500 + 2] = nan;
                      const auto out = gridded(context, src, 4, 0.1);
                      if (!out) return out.status();
                      double bad = 0;
-                     for (std::size_t i = 0; i < src.size(); ++i) bad += i / 4 == 500 ? !same(out.value()[i], src[i]) : !std::isfinite(out.value()[i]);
+                     for (std::size_t i = 0; i < src.size(); ++i)
+                       bad += i / 4 == 500 ? !same(out.value()[i], src[i]) : !std::isfinite(out.value()[i]);
                      return bad;
                    }});
 }
@@ -226,12 +243,15 @@ BilateralUpsampleParams upsample_params(int ratio, bool normal) {
 void add_upsample(std::vector<Case>& cases) {
   for (const int ratio : {2, 4})
     for (const bool normal : {false, true})
-      cases.push_back(equal_bits("bilateral", fmt::format("upsample from 1/{}{}", ratio, normal ? " with normals" : ""), [=](Context& c) {
-        return result_of(c, plan(upsample_params(ratio, normal), c.profile()), upsample_inputs(ratio, normal), "dst");
-      }));
+      cases.push_back(equal_bits("bilateral", fmt::format("upsample from 1/{}{}", ratio, normal ? " with normals" : ""),
+                                 [=](Context& c) {
+                                   return result_of(c, plan(upsample_params(ratio, normal), c.profile()),
+                                                    upsample_inputs(ratio, normal), "dst");
+                                 }));
   for (const bool nearest : {false, true})
     cases.push_back({"bilateral", fmt::format("upsample, two depths{}", nearest ? ", nearest depth" : ""),
-                     "a surface takes from low pixels of its own depth alone, also where a thin one is seen by few of them (largest "
+                     "a surface takes from low pixels of its own depth alone, also where a thin one is seen by few of "
+                     "them (largest "
                      "difference from its colour)",
                      1e-6, [=](Context& context) -> Result<double> {
                        BilateralUpsampleParams p = upsample_params(4, false);
@@ -249,7 +269,8 @@ void add_upsample(std::vector<Case>& cases) {
                          depth.push_back(close ? 1 : 50);
                          for (int c = 0; c < 4; ++c) expected.push_back(close ? 0.25 : 0.75);
                        }
-                       const auto out = result_of(context, plan(p, context.profile()), {{"src", src}, {"depth_low", depth_low}, {"depth", depth}}, "dst");
+                       const auto out = result_of(context, plan(p, context.profile()),
+                                                  {{"src", src}, {"depth_low", depth_low}, {"depth", depth}}, "dst");
                        if (!out) return out.status();
                        return max_difference(out.value(), expected);
                      }});
@@ -266,8 +287,8 @@ Result<Values> spread(Context& context, const Values& src) {
 void add_variance(std::vector<Case>& cases) {
   const Values noise = scene::noise(width, height, 1, 40);
   cases.push_back(equal_bits("variance", "spatial", [=](Context& c) { return spread(c, noise); }));
-  cases.push_back({"variance", "spatial, by its definition", "sum (l - mean)^2 / (n - 1) over 7x7 (largest difference)", 1e-6,
-                   [=](Context& context) -> Result<double> {
+  cases.push_back({"variance", "spatial, by its definition", "sum (l - mean)^2 / (n - 1) over 7x7 (largest difference)",
+                   1e-6, [=](Context& context) -> Result<double> {
                      const auto out = spread(context, noise);
                      if (!out) return out.status();
                      Values expected;
@@ -283,28 +304,33 @@ void add_variance(std::vector<Case>& cases) {
                        }
                      return max_difference(out.value(), expected);
                    }});
-  cases.push_back({"variance", "spatial, 1e6 and noise", "a level of 1e6 costs no digits but those of its own storage, 1/16 in values of 0..16 (relative difference)", 0.01,
+  cases.push_back(
+      {"variance", "spatial, 1e6 and noise",
+       "a level of 1e6 costs no digits but those of its own storage, 1/16 in values of 0..16 (relative difference)",
+       0.01, [=](Context& context) -> Result<double> {
+         Values raised = noise;
+         for (double& v : raised) v = static_cast<float>(16 * v + 1e6);
+         const auto a = spread(context, raised), b = spread(context, noise);
+         if (!a) return a.status();
+         if (!b) return b.status();
+         double most = 0;
+         for (std::size_t i = 0; i < noise.size(); ++i) {
+           const double e = std::fabs(a.value()[i] / (256 * b.value()[i]) - 1);
+           if (!(e <= most)) most = e;
+         }
+         return most;
+       }});
+  cases.push_back({"variance", "spatial, one NaN", "it does not count: all are finite (values that are not)", 0,
                    [=](Context& context) -> Result<double> {
-                     Values raised = noise;
-                     for (double& v : raised) v = static_cast<float>(16 * v + 1e6);
-                     const auto a = spread(context, raised), b = spread(context, noise);
-                     if (!a) return a.status();
-                     if (!b) return b.status();
-                     double most = 0;
-                     for (std::size_t i = 0; i < noise.size(); ++i) {
-                       const double e = std::fabs(a.value()[i] / (256 * b.value()[i]) - 1);
-                       if (!(e <= most)) most = e;
-                     }
-                     return most;
-                   }});
-  cases.push_back({"variance", "spatial, one NaN", "it does not count: all are finite (values that are not)", 0, [=](Context& context) -> Result<double> {
                      Values src = noise;
                      src[700] = nan;
                      const auto out = spread(context, src);
                      if (!out) return out.status();
-                     return std::count_if(out.value().begin(), out.value().end(), [](double v) { return !std::isfinite(v); });
+                     return std::count_if(out.value().begin(), out.value().end(),
+                                          [](double v) { return !std::isfinite(v); });
                    }});
-  cases.push_back({"variance", "temporal, 64 frames", "with alpha 0, the variance of the frames that were seen (largest relative difference)", 1e-4,
+  cases.push_back({"variance", "temporal, 64 frames",
+                   "with alpha 0, the variance of the frames that were seen (largest relative difference)", 1e-4,
                    [](Context& context) -> Result<double> {
                      VarianceParams p;
                      p.width = 19;
@@ -368,8 +394,9 @@ void add_outliers(std::vector<Case>& cases) {
       return out.value().dst;
     }));
     cases.push_back({"outlier_clamp", "one firefly, " + tag,
-                     "a pixel of 1e6 in 0.5..0.6 falls to 1.3 or less, with its hue; nothing else changes; it is counted (things wrong)", 0,
-                     [=](Context& context) -> Result<double> {
+                     "a pixel of 1e6 in 0.5..0.6 falls to 1.3 or less, with its hue; nothing else changes; it is "
+                     "counted (things wrong)",
+                     0, [=](Context& context) -> Result<double> {
                        Values src = scene::noise(width, height, 4, 60);
                        for (double& v : src) v = static_cast<float>(0.5 + 0.1 * v);
                        const std::size_t at = 4 * (16 * width + 20);
@@ -379,12 +406,16 @@ void add_outliers(std::vector<Case>& cases) {
                        const auto out = clamped(context, variant, src);
                        if (!out) return out.status();
                        const Values& v = out.value().dst;
-                       double bad = v[at] <= 1.3 && v[at] >= 0.5 && std::fabs(v[at + 1] / v[at] - 0.5) < 1e-6 && v[at + 2] == 0 ? 0 : 1;
+                       double bad =
+                           v[at] <= 1.3 && v[at] >= 0.5 && std::fabs(v[at + 1] / v[at] - 0.5) < 1e-6 && v[at + 2] == 0
+                               ? 0
+                               : 1;
                        for (std::size_t i = 0; i < src.size(); ++i)
                          if (i / 4 != at / 4 && !(std::fabs(v[i] - src[i]) <= 0.1)) ++bad;
                        return bad + (out.value().counters[0] >= 1 && out.value().counters[1] == 0 ? 0 : 1);
                      }});
-    cases.push_back({"outlier_clamp", "NaN and infinity, " + tag, "become grey of what is around, are counted apart, and count nowhere (things wrong)", 0,
+    cases.push_back({"outlier_clamp", "NaN and infinity, " + tag,
+                     "become grey of what is around, are counted apart, and count nowhere (things wrong)", 0,
                      [=](Context& context) -> Result<double> {
                        Values src(width * height * 4, 0.5);
                        src[4 * 400] = nan;
