@@ -18,14 +18,14 @@ void add_report(CLI::App& app, int& exit_status) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "report", "measure error against run time, stability and peers; write tables, JSON and a page");
-  command->add_flag("--quick", a->settings.quick, "fewer settings: about six minutes on two cores");
+  command->add_flag("--quick", a->settings.quick, "fewer settings: about seven minutes on two cores");
   command
       ->add_option("--device", a->settings.devices,
                    "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; "
                    "may be given again; default: all")
       ->type_name("NAME")
       ->allow_extra_args(false);
-  command->add_option("--kernel", a->settings.kernels, "gaussian_blur, bilateral, mip_build or cone_trace; may be given again; default: all")
+  command->add_option("--kernel", a->settings.kernels, "gaussian_blur, bilateral, mip_build ...; may be given again; default: all")
       ->type_name("NAME")
       ->allow_extra_args(false);
   command
