@@ -96,6 +96,18 @@ class Build(unittest.TestCase):
         self.assertEqual(math, ["border", "packing"])
         self.assertEqual(modules, [("a", {"X": "1", "Y": "f32x4"}), ("b", {})])
 
+    def test_pixels(self):
+        _, modules = generate.parse_build("/* BUILD\n   modules READ TEXELS: f32x1 f16x4_f32x4\n   modules: unorm8x4\n*/\n")
+        self.assertEqual(modules, [("f32x1", {"CHANNELS": "1", "SRC_KIND": "READ", "SRC": "f32x1", "DST": "f32x1"}),
+                                   ("f16x4_f32x4", {"SRC_KIND": "READ", "SRC": "f16x4", "DST": "f32x4"}),
+                                   ("texels_f32x1", {"CHANNELS": "1", "SRC_KIND": "TEXELS", "SRC": "f32x1", "DST": "f32x1"}),
+                                   ("texels_f16x4_f32x4", {"SRC_KIND": "TEXELS", "SRC": "f16x4", "DST": "f32x4"}),
+                                   ("unorm8x4", {"SRC": "unorm8x4", "DST": "unorm8x4"})])
+
+    def test_unknown_kind(self):
+        with self.assertRaises(SystemExit):
+            generate.parse_build("/* BUILD\n   modules READS: f32x1\n*/\n")
+
     def test_missing_comment(self):
         with self.assertRaises(SystemExit):
             generate.parse_build("#define PARAMETERS(_)\n")

@@ -1,12 +1,6 @@
 /* BUILD
    math: border
-   module f32x1: CHANNELS=1 SRC=f32x1 DST=f32x1
-   module f32x2: CHANNELS=2 SRC=f32x2 DST=f32x2
-   module f32x4: SRC=f32x4 DST=f32x4
-   module f16x4_f32x4: SRC=f16x4 DST=f32x4
-   module f32x4_f16x4: SRC=f32x4 DST=f16x4
-   module unorm8x4_f32x4: SRC=unorm8x4 DST=f32x4
-   module f32x4_unorm8x4: SRC=f32x4 DST=unorm8x4
+   modules: f32x1 f32x2 f32x4 f16x4_f32x4 f32x4_f16x4 unorm8x4_f32x4 f32x4_unorm8x4
 */
 #define PARAMETERS(_) \
     _(int, width)      /* pixels */ \

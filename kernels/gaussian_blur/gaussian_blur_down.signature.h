@@ -1,20 +1,6 @@
 /* BUILD
    math: border
-   module f32x1: CHANNELS=1 SRC_KIND=READ SRC=f32x1 DST=f32x1
-   module f32x2: CHANNELS=2 SRC_KIND=READ SRC=f32x2 DST=f32x2
-   module f32x4: SRC_KIND=READ SRC=f32x4 DST=f32x4
-   module f16x4_f32x4: SRC_KIND=READ SRC=f16x4 DST=f32x4
-   module unorm8x4_f32x4: SRC_KIND=READ SRC=unorm8x4 DST=f32x4
-   module image_f32x1: CHANNELS=1 SRC_KIND=IMAGE2D SRC=f32x1 DST=f32x1
-   module image_f32x2: CHANNELS=2 SRC_KIND=IMAGE2D SRC=f32x2 DST=f32x2
-   module image_f32x4: SRC_KIND=IMAGE2D SRC=f32x4 DST=f32x4
-   module image_f16x4_f32x4: SRC_KIND=IMAGE2D SRC=f16x4 DST=f32x4
-   module image_unorm8x4_f32x4: SRC_KIND=IMAGE2D SRC=unorm8x4 DST=f32x4
-   module texels_f32x1: CHANNELS=1 SRC_KIND=TEXELS SRC=f32x1 DST=f32x1
-   module texels_f32x2: CHANNELS=2 SRC_KIND=TEXELS SRC=f32x2 DST=f32x2
-   module texels_f32x4: SRC_KIND=TEXELS SRC=f32x4 DST=f32x4
-   module texels_f16x4_f32x4: SRC_KIND=TEXELS SRC=f16x4 DST=f32x4
-   module texels_unorm8x4_f32x4: SRC_KIND=TEXELS SRC=unorm8x4 DST=f32x4
+   modules READ IMAGE2D TEXELS: f32x1 f32x2 f32x4 f16x4_f32x4 unorm8x4_f32x4
 */
 #define PARAMETERS(_) \
     _(int, src_width)  /* pixels */ \

@@ -1,14 +1,5 @@
 /* BUILD
-   module f32x1: CHANNELS=1 SRC_KIND=READ SRC=f32x1 DST=f32x1
-   module f32x2: CHANNELS=2 SRC_KIND=READ SRC=f32x2 DST=f32x2
-   module f32x4: SRC_KIND=READ SRC=f32x4 DST=f32x4
-   module f32x4_f16x4: SRC_KIND=READ SRC=f32x4 DST=f16x4
-   module f32x4_unorm8x4: SRC_KIND=READ SRC=f32x4 DST=unorm8x4
-   module texels_f32x1: CHANNELS=1 SRC_KIND=TEXELS SRC=f32x1 DST=f32x1
-   module texels_f32x2: CHANNELS=2 SRC_KIND=TEXELS SRC=f32x2 DST=f32x2
-   module texels_f32x4: SRC_KIND=TEXELS SRC=f32x4 DST=f32x4
-   module texels_f32x4_f16x4: SRC_KIND=TEXELS SRC=f32x4 DST=f16x4
-   module texels_f32x4_unorm8x4: SRC_KIND=TEXELS SRC=f32x4 DST=unorm8x4
+   modules READ TEXELS: f32x1 f32x2 f32x4 f32x4_f16x4 f32x4_unorm8x4
 */
 #define PARAMETERS(_) \
     _(int, src_width)  /* pixels */ \

@@ -6,6 +6,7 @@ A signature begins with a comment that the build reads:
     /* BUILD
        math: border                         files of kernels/math that the kernel uses
        module f32x4: CHANNELS=4 SRC=f32x4   one line per combination of options that is built
+       modules READ TEXELS: f32x4 f32x4_f16x4   one module per kind of src and per formats of src and dst
     */
 """
 import argparse
@@ -82,6 +83,20 @@ def flatten(text):
     return re.sub(r'^#include "([^"]+)"\n', include, text, flags=re.MULTILINE)
 
 
+PREFIX = {"READ": "", "TEXELS": "texels_", "IMAGE2D": "image_", "IMAGE_READ2D": "storage_"}
+
+
+def pixel_modules(kinds, formats):
+    """The modules that read src of each kind and format; `f16x4_f32x4` writes another format, `f32x4` the same."""
+    for kind in kinds or [None]:
+        for name in formats:
+            src, _, dst = name.partition("_")
+            options = {} if src.endswith("x4") else {"CHANNELS": src[-1]}
+            if kind:
+                options["SRC_KIND"] = kind
+            yield PREFIX.get(kind, "") + name, {**options, "SRC": src, "DST": dst or src}
+
+
 def parse_build(signature):
     """(math files, [(module name, {option: value})]) of a signature's BUILD comment."""
     comment = re.match(r"/\* BUILD\n(.*?)\*/", signature, re.DOTALL)
@@ -96,6 +111,8 @@ def parse_build(signature):
             math = rest.split()
         elif word.startswith("module "):
             modules.append((word.split()[1], dict(pair.split("=", 1) for pair in rest.split())))
+        elif word.split()[0] == "modules" and set(word.split()[1:]) <= PREFIX.keys():
+            modules += pixel_modules(word.split()[1:], rest.split())
         else:
             sys.exit(f"unknown line in BUILD: {line.strip()}")
     return math, modules
