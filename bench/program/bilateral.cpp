@@ -177,12 +177,8 @@ void add_bilateral(CLI::App& app, int& exit_status) {
   const Kernel& k = kernel("bilateral");
   CLI::App* command = app.add_subcommand("bilateral", "filter an image file and keep its edges");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--in", a->in, "image to filter: .exr, .hdr, .png or .npy ([y][x] or [y][x][c], 1..4 channels)")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("-o,--out", a->out, "filtered image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
-      ->required()
-      ->type_name("FILE");
+  add_image_in(*command, a->in, "image to filter");
+  add_image_out(*command, a->out, "filtered image");
   command->add_option("--guide", a->guide, "image whose differences of colour weigh, in place of those of --in")
       ->type_name("FILE");
   command

@@ -98,6 +98,18 @@ std::string closest(std::string_view word, const std::vector<std::string>& candi
   return best;
 }
 
+void add_image_in(CLI::App& command, std::string& path, std::string_view text) {
+  command.add_option("--in", path, fmt::format("{}: .exr, .hdr, .png or .npy ([y][x] or [y][x][c], 1..4 channels)", text))
+      ->required()
+      ->type_name("FILE");
+}
+
+void add_image_out(CLI::App& command, std::string& path, std::string_view text) {
+  command.add_option("-o,--out", path, fmt::format("{}: .exr (float32), .hdr, .png (8 bits) or .npy (float32)", text))
+      ->required()
+      ->type_name("FILE");
+}
+
 void add_device_option(CLI::App& command, std::string& device) {
   command
       .add_option(

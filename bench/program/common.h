@@ -30,6 +30,10 @@ int complain(const Status& status, bool input = false);
 /// The candidate with the fewest edits from `word`; empty where none is near.
 std::string closest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// `--in` and `-o`, both required: an image read and one written. The texts begin their help.
+void add_image_in(CLI::App& command, std::string& path, std::string_view text);
+void add_image_out(CLI::App& command, std::string& path, std::string_view text);
+
 /// `--device`. Empty: the first of opencl, vulkan and cpu that works.
 void add_device_option(CLI::App& command, std::string& device);
 Result<std::shared_ptr<Context>> open_device(const std::string& device);

@@ -104,9 +104,7 @@ void add_denoise(CLI::App& app, int& exit_status) {
   command
       ->add_option("--depth", a->depth, "view-space depth, first channel; 1e10 and more is sky, which stays as it is")
       ->type_name("FILE");
-  command->add_option("-o,--out", a->out, "smooth image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
-      ->required()
-      ->type_name("FILE");
+  add_image_out(*command, a->out, "smooth image");
   const auto number = [&](const char* name, double& value, double least, double most, const char* meaning) {
     command->add_option(name, value, fmt::format("{}: {}..{}; default {}", meaning, least, most, value))
         ->check(CLI::Range(least, most))

@@ -81,12 +81,8 @@ void add_gaussian_blur(CLI::App& app, int& exit_status) {
   const Kernel& k = kernel("gaussian_blur");
   CLI::App* command = app.add_subcommand("gaussian_blur", "blur an image file");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--in", a->in, "image to blur: .exr, .hdr, .png or .npy ([y][x] or [y][x][c], 1..4 channels)")
-      ->required()
-      ->type_name("FILE");
-  command->add_option("-o,--out", a->out, "blurred image: .exr (float32), .hdr, .png (8 bits) or .npy (float32)")
-      ->required()
-      ->type_name("FILE");
+  add_image_in(*command, a->in, "image to blur");
+  add_image_out(*command, a->out, "blurred image");
   add_number(*command, k, "--sigma", a->sigma);
   add_number(*command, k, "--radius", a->radius);
   add_number(*command, k, "--order", a->order);
