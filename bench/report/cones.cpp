@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -56,12 +55,6 @@ Result<Values> run_on(Context& context, ConeSetting s, Format format) {
   return r.value().irradiance;
 }
 
-std::uint64_t bits_of(const Values& v) {
-  std::vector<std::byte> bytes(v.size() * sizeof(double));
-  std::memcpy(bytes.data(), v.data(), bytes.size());
-  return hash_bytes(bytes);
-}
-
 Result<std::vector<Oracle>> compute_oracle(Session& session, const ConeSetting& s) {
   const auto stored = run_on(session.cpu_float(), s, s.params.format);
   if (!stored) return stored.status();
@@ -75,7 +68,7 @@ Result<std::vector<Oracle>> compute_oracle(Session& session, const ConeSetting& 
   const Values& x = exact.value();
   for (std::size_t i = 0; i < x.size(); ++i)
     if (i % 4 != 3) product += (x[i] - t.first[i]) * (x[i] - t.second[i]) / (0.75 * static_cast<double>(x.size()));
-  return std::vector<Oracle>{{bits_of(stored.value()), apart(f32.value(), x, t.mean),
+  return std::vector<Oracle>{{hash_values(stored.value()), apart(f32.value(), x, t.mean),
                               apart(stored.value(), f32.value(), t.mean), std::sqrt(std::max(0.0, product)) / t.mean}};
 }
 
@@ -96,7 +89,7 @@ Status measure(Session& session, ConeScenes& scenes, const ConeSetting& s) {
   const Result<Values> result = scene.value()->read("irradiance");
   if (!result) return result.status();
   const auto errors = session.errors(
-      where, {"root mean square of x - rays through the voxels, over their mean"}, bits_of(result.value()),
+      where, {"root mean square of x - rays through the voxels, over their mean"}, hash_values(result.value()),
       p.input == Input::buffer, [&] { return compute_oracle(session, s); },
       [&]() -> Result<std::vector<double>> {
         const auto expected = run_on(session.cpu_float(), s, p.format);

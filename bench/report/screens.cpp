@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <memory>
 
@@ -110,11 +109,9 @@ Result<std::vector<int>> ends_on(Context& context, const HizSsrParams& p, const 
   return ends_of(p, r.value().hits, r.value().paths);
 }
 
-std::uint64_t bits_of(const Values& a, const Values& b) {
-  std::vector<std::byte> bytes((a.size() + b.size()) * sizeof(double));
-  std::memcpy(bytes.data(), a.data(), a.size() * sizeof(double));
-  std::memcpy(bytes.data() + a.size() * sizeof(double), b.data(), b.size() * sizeof(double));
-  return hash_bytes(bytes);
+std::uint64_t bits_of(Values a, const Values& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return hash_values(a);
 }
 
 Status measure(Session& session, int width, int height, SsrVariant variant, double reach, int steps) {

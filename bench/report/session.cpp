@@ -25,6 +25,11 @@ std::uint64_t hash_bytes(const std::vector<std::byte>& bytes) {
   return value;
 }
 
+std::uint64_t hash_values(const std::vector<double>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return hash_bytes({bytes.begin(), bytes.end()});
+}
+
 Session::Session(std::shared_ptr<Context> context, Settings settings, int rows, double best_guard)
     : context_(std::move(context)), settings_(std::move(settings)), rows_(rows), guard_(best_guard) {
   load_oracles();

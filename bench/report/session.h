@@ -34,6 +34,8 @@ struct Oracle {
 
 /// FNV-1a over bytes.
 std::uint64_t hash_bytes(const std::vector<std::byte>& bytes);
+/// The same of values.
+std::uint64_t hash_values(const std::vector<double>& values);
 
 class Session {
  public:

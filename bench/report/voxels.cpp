@@ -146,8 +146,6 @@ Values truth_of(const Setting& s) {
   return values;
 }
 
-std::uint64_t bits_of(const Values& v) { return hash_bytes(cases::store(v, Format::f32x4, true)); }
-
 // One for colours and one for sets.
 Result<std::vector<Oracle>> compute_oracles(Session& session, const Setting& s) {
   Setting wide = s;
@@ -159,7 +157,7 @@ Result<std::vector<Oracle>> compute_oracles(Session& session, const Setting& s) 
   if (!stored) return stored.status();
   const Difference rounding = compare(f32.value(), exact.value()), storage = compare(stored.value(), f32.value()),
                    method = compare(exact.value(), truth_of(s));
-  const std::uint64_t bits = bits_of(stored.value());
+  const std::uint64_t bits = hash_values(stored.value());
   return std::vector<Oracle>{{bits, rounding.colour, storage.colour, method.colour},
                              {bits, rounding.voxels, storage.voxels, method.voxels}};
 }
@@ -177,7 +175,7 @@ Status measure(Session& session, const Setting& s) {
     const Result<Values> own = run.read("colour");
     if (!own) return own.status();
     auto split = session.errors(
-        label(s), metrics, bits_of(own.value()), s.merging == VoxelizeMerging::exact,
+        label(s), metrics, hash_values(own.value()), s.merging == VoxelizeMerging::exact,
         [&] { return compute_oracles(session, s); },
         [&]() -> Result<std::vector<double>> {
           const Result<Values> other = colour_of(session.cpu_float(), s);
