@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 
 #include "tests/cases/voxelize_support.h"
 #include "tests/support/voxels.h"
@@ -33,39 +34,31 @@ VoxelizeParams params_of(const VoxelGrid& grid, const VoxelTriangles& triangles,
   return p;
 }
 
-Mesh ball(double x, double y, double z) {
-  Mesh mesh = cases::icosphere({x, y, z}, 4.5, 2);
-  for (std::size_t t = 0; t < mesh.triangles(); ++t) mesh.materials.push_back(t % 3);
-  return mesh;
-}
-
-class VoxelizeOver : public testing::TestWithParam<Format> {};
-
-TEST_P(VoxelizeOver, HoldsTheObjectWhereItIsAndTheRestAsItWas) {
-  VoxelGrid grid = cases::unit_grid(37);  // no whole bricks
-  grid.depth = 21;
-  Mesh building = cases::awkward_mesh(60, 37, 3);
-  for (std::uint32_t t = 0; t < 60; ++t) building.materials[t] = t % 3;
+// An object of `object_at(place)` moves over a building.
+void check_moves(const VoxelGrid& grid, const Mesh& building, const std::function<Mesh(double)>& object_at,
+                 const std::vector<double>& places, Format format) {
   const VoxelTriangles still = voxel_triangles(building.view(), grid).value();
   for (const std::string& device : test_devices()) {
     Context& context = test_context(device);
     const NamedBytes table{{"materials", encode(Format::f32x4, material_table(), context.real64())}};
-    const VoxelizeParams whole = params_of(grid, still, GetParam());
+    const VoxelizeParams whole = params_of(grid, still, format);
     const Voxelized under = voxelize(context, whole, still, cases::paints());
     std::map<std::string, Bytes> held = under.bytes;
-    Bytes left_bricks(5 * 5 * 3 * 4), left_counters(64);
-    for (const double at : {6.0, 9.5, 30.0, 34.0, 100.0, 12.0}) {  // in part and wholly outside
-      const VoxelTriangles moved = voxel_triangles(ball(at, 15 + at / 4, 11).view(), grid).value();
-      const VoxelizeParams alone = params_of(grid, moved, GetParam());
+    Bytes left_bricks(
+        static_cast<std::size_t>((grid.width + 7) / 8 * ((grid.height + 7) / 8) * ((grid.depth + 7) / 8)) * 4),
+        left_counters(64);
+    for (const double at : places) {
+      const VoxelTriangles moved = voxel_triangles(object_at(at).view(), grid).value();
+      const VoxelizeParams alone = params_of(grid, moved, format);
       const Voxelized object = voxelize(context, alone, moved, cases::paints());
       VoxelizeParams over = alone;
       over.over = true;
       const Result<Plan> made = plan(over, context.profile());
       ASSERT_TRUE(made.ok()) << made.status().message();
       NamedBytes inputs = table;
-      inputs.insert(inputs.end(), {{"triangles", bytes_of(moved.records)},
-                                   {"left_bricks", left_bricks},
-                                   {"left_counters", left_counters}});
+      inputs.insert(
+          inputs.end(),
+          {{"triangles", bytes_of(moved.records)}, {"left_bricks", left_bricks}, {"left_counters", left_counters}});
       std::vector<std::string> outputs = attributes;
       for (const std::string& name : attributes) {
         inputs.emplace_back(name, held[name]);
@@ -75,7 +68,7 @@ TEST_P(VoxelizeOver, HoldsTheObjectWhereItIsAndTheRestAsItWas) {
       const std::vector<Bytes> out = run_bytes(context, made.value(), inputs, outputs);
       ASSERT_EQ(out.size(), outputs.size());
       const std::vector<char> covered = occupied(alone, object);
-      const std::size_t pixel = bytes_per_pixel(GetParam());
+      const std::size_t pixel = bytes_per_pixel(format);
       for (std::size_t k = 0; k < 3; ++k) {
         held[attributes[k]] = out[k];
         std::size_t wrong = 0;
@@ -91,6 +84,35 @@ TEST_P(VoxelizeOver, HoldsTheObjectWhereItIsAndTheRestAsItWas) {
       left_counters = out[4];
     }
   }
+}
+
+Mesh painted(Mesh mesh) {
+  mesh.materials.clear();
+  for (std::size_t t = 0; t < mesh.triangles(); ++t) mesh.materials.push_back(t % 3);
+  return mesh;
+}
+
+class VoxelizeOver : public testing::TestWithParam<Format> {};
+
+TEST_P(VoxelizeOver, HoldsTheObjectWhereItIsAndTheRestAsItWas) {
+  VoxelGrid grid = cases::unit_grid(37);  // no whole bricks
+  grid.depth = 21;
+  // In part and wholly outside, too.
+  check_moves(
+      grid, painted(cases::awkward_mesh(60, 37, 3)),
+      [](double at) {
+        return painted(cases::icosphere({at, 15 + at / 4, 11}, 4.5, 2));
+      },
+      {6.0, 9.5, 30.0, 34.0, 100.0, 12.0}, GetParam());
+}
+
+TEST(VoxelizeOverSmall, HoldsTheObjectWhereItIsAndTheRestAsItWas) {
+  check_moves(
+      cases::unit_grid(11), painted(cases::awkward_mesh(6, 11, 3)),
+      [](double at) {
+        return painted(cases::icosphere({at, 4, 5}, 1.5, 0));
+      },
+      {2.0, 7.5}, Format::f32x4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, VoxelizeOver, testing::Values(Format::f32x4, Format::f16x4, Format::unorm8x4),
