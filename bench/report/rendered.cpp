@@ -2,26 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <span>
 
 #include <fmt/format.h>
 
-#include "bench/report/scenes.h"
+#include "bench/report/stage.h"
 #include "bench/scene/voxel_scene.h"
 #include "bench/truth/cone_truth.h"
-#include "bench/truth/path_truth.h"
 
 namespace luxel::report {
 namespace {
 
 using glm::dvec3;
-
-struct Place {
-  std::string name, scene;  // as the report shows it, and as scene_from takes it
-  scene::Camera camera;     // fov 0: the scene's own
-};
 
 struct RenderSetting {
   Place place;
@@ -30,66 +23,9 @@ struct RenderSetting {
   double step = 0.5;
 };
 
-// A scene, what its camera sees, and the truth there; made once in a process.
-struct Stage {
-  scene::Scene scene;
-  std::optional<scene::Rays> rays;  // through `scene`
-  scene::GBuffer seen;
-  std::vector<double> t1, t2;  // irradiance after one bounce, 3 a pixel that has a surface
-  std::vector<std::size_t> pixels;
-  double mean = 0;
-};
-
 std::string label(const RenderSetting& s) {
   return fmt::format("cone_trace {} {} cones {}^3 step {} in {}", s.anisotropic ? "anisotropic" : "isotropic", s.cones,
                      s.resolution, s.step, s.place.name);
-}
-
-Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
-  static std::map<std::string, std::shared_ptr<const Stage>> stages;
-  if (stages.contains(place.name)) return stages[place.name];
-  auto read = scene::scene_from(place.scene);
-  if (!read) return read.status();
-  auto stage = std::make_shared<Stage>();
-  stage->scene = std::move(read).value();
-  if (place.camera.fov > 0) stage->scene.camera = place.camera;
-  auto rays = scene::Rays::make(stage->scene);
-  if (!rays) return rays.status();
-  stage->rays = rays.value();
-  stage->seen = scene::gbuffer(rays.value(), stage->scene.camera, quick ? 48 : 96, quick ? 27 : 54);
-  truth::PathSettings settings;
-  settings.samples = quick ? 256 : 1024;
-  settings.bounces = 1;
-  auto traced = path_truth(rays.value(), truth::receivers(stage->seen, stage->scene.camera.eye), settings);
-  if (!traced) return traced.status();
-  for (std::size_t i = 0; i < stage->seen.pixels(); ++i) {
-    if (!stage->seen.surface_at(i)) continue;
-    stage->pixels.push_back(i);
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
-      stage->t1.push_back(traced.value().indirect.t1[c]);
-      stage->t2.push_back(traced.value().indirect.t2[c]);
-      stage->mean += (stage->t1.back() + stage->t2.back()) / 2;
-    }
-  }
-  stage->mean /= static_cast<double>(std::max<std::size_t>(stage->t1.size(), 1));
-  stages[place.name] = stage;
-  return stages[place.name];
-}
-
-// mean((a1 - b1)(a2 - b2)) / mean^2, and its standard error.
-struct Relative {
-  double value = 0, error = 0;
-};
-Relative relative(const std::vector<double>& a1, const std::vector<double>& a2, const std::vector<double>& b1,
-                  const std::vector<double>& b2, double mean) {
-  const double n = static_cast<double>(a1.size());
-  double sum = 0, squares = 0;
-  for (std::size_t i = 0; i < a1.size(); ++i) {
-    const double v = (a1[i] - b1[i]) * (a2[i] - b2[i]) / (mean * mean);
-    sum += v;
-    squares += v * v;
-  }
-  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum * sum / n / n) / n)};
 }
 
 double total(const std::vector<scene::VoxelStep>& steps) {
@@ -171,7 +107,7 @@ Status measure(Session& session, const RenderSetting& s) {
   FrontierRow row{"cone_trace", s.anisotropic ? "anisotropic" : "isotropic", s.place.name,
                   fmt::format("{} receivers", stage.pixels.size()), {{"format", "f16x4"}},
                   {{"resolution", s.resolution}, {"cones", s.cones}, {"step", s.step}}, "",
-                  {"irradiance after one bounce: mean((x - t1)(x - t2)) / (mean t)^2"}};
+                  {bounce_metric}};
   row.error.method = method.value;
   row.error.discretization = discretization.value;
   row.error.model = model.value;
@@ -188,18 +124,11 @@ Status measure(Session& session, const RenderSetting& s) {
 
 std::vector<Job> rendered_grid(Session& session, std::vector<std::string>& missing) {
   const bool quick = session.settings().quick;
-  std::vector<Place> places{{"cornell (generated)", "cornell", {{}, {}, 0}},
-                            {"atrium (generated)", "atrium:20000", {{}, {}, 0}}};
-  const std::string sponza = data_folder() + "/crytek_sponza/sponza.glb";
-  if (!std::filesystem::exists(sponza))
-    missing.push_back(sponza + " is missing");
-  else
-    places.push_back({"Sponza", sponza, {{-60, 12, -3}, {60, 25, -2}, 65}});
   std::vector<Job> jobs;
   const auto add = [&](const RenderSetting& s) {
     jobs.push_back({label(s), [&session, s] { return measure(session, s); }});
   };
-  for (const Place& place : places) {
+  for (const Place& place : places(missing)) {
     for (const int resolution : quick || session.is_cpu() ? std::vector<int>{64} : std::vector<int>{64, 128, 256})
       for (const bool anisotropic : {false, true}) add({place, resolution, 6, anisotropic, 0.5});
     if (session.is_cpu()) continue;
