@@ -95,6 +95,23 @@ TEST_P(VoxelizeWindow, HoldsAfterAnyMovesWhatItHoldsAnew) {
   }
 }
 
+TEST(VoxelizeWindowSmall, HoldsAfterAMoveWhatItHoldsAnew) {
+  Mesh mesh = cases::awkward_mesh(6, 12, 5);
+  for (double& v : mesh.positions) v -= 6;
+  Window w = window_on(mesh, {8, 8, 8});
+  w.params.window = {-3, -5, -4};
+  const Voxel from = w.params.window;
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    w.params.window = from;
+    Volumes held = make(context, w.params, w.triangles, {});
+    w.params.window = {-2, -5, -2};
+    for (const VoxelizeParams& region : voxelize_move(w.params, from)) held = make(context, region, w.triangles, held);
+    const Volumes anew = make(context, w.params, w.triangles, {});
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(held[i], anew[i]) << device << " " << volume_names[i];
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, VoxelizeWindow, testing::Values(Format::f32x4, Format::f16x4, Format::unorm8x4),
                          [](const auto& info) { return std::string(name(info.param)); });
 

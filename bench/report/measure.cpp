@@ -9,6 +9,7 @@
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
+#include "bench/report/octree.h"
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
@@ -70,6 +71,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, mip_grid(session, scenes));
     append(jobs, mip_left_out(session, scenes));
     append(jobs, mip_reproduction(session, scenes));
+    append(jobs, octree_reproduction(session, missing));
     append(jobs, mip_peers(session));
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
     if (first) append(jobs, mip_pictures(session, scenes));
@@ -95,7 +97,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
   }
-  for (const std::string& line : missing) session.note("skipped", line);
+  for (const std::string& line : missing)
+    if (session.first_time(line)) session.note("skipped", line);
   if (!settings.only.empty())
     std::erase_if(jobs, [&](const Job& job) {
       return std::none_of(settings.only.begin(), settings.only.end(),

@@ -86,36 +86,50 @@ Result<ConeScene> ConeScene::make(Context& context, const ConeTraceParams& param
   return scene;
 }
 
-Status ConeScene::build(const ConeTraceParams& p, std::span<const double> level_0) {
+Result<ConeScene> ConeScene::make(Context& context, const ConeTraceParams& params, std::span<const std::byte> level_0) {
+  ConeScene scene;
+  scene.context_ = &context;
+  const Resource resource = buffer("fine", params.format, level_0.size() / bytes_per_pixel(params.format));
+  const Result<std::shared_ptr<Memory>> fine = context.make(resource);
+  if (!fine) return fine.status();
+  if (Status s = context.upload(*fine.value(), level_0.data(), level_0.size()); !s) return s;
+  if (Status s = scene.build_coarse(params, {resource, fine.value()}); !s) return s;
+  return scene;
+}
+
+Status ConeScene::build_coarse(const ConeTraceParams& p, const Held& fine) {
   const std::size_t fine_texels = static_cast<std::size_t>(p.extent[0]) * p.extent[1] * p.extent[2];
   const std::size_t coarse_texels = cone_trace_coarse_texels(p);
-  Result<Held> fine = hold(buffer("fine", p.format, fine_texels), level_0);
-  if (!fine) return fine.status();
   volume_bytes_ = (fine_texels + coarse_texels) * bytes_per_pixel(p.format);
-  std::vector<Held> volumes{fine.value()};
-  if (cone_trace_levels(p) > 1) {
-    Result<Held> coarse = hold(buffer("coarse", p.format, coarse_texels), {});
-    if (!coarse) return coarse.status();
-    volumes.push_back(coarse.value());
-    const MipBuildParams m = mips_of(p);
-    const Result<Plan> made = plan(m, context_->profile());
-    if (!made) return made.status();
-    const Result<std::shared_ptr<Program>> program = context_->compile(made.value());
-    if (!program) return program.status();
-    std::vector<std::string> names;
-    std::vector<std::pair<int, int>> which;
-    for (int level = 1; level < cone_trace_levels(p); ++level)
-      for (int d = 0; d < directions(p); ++d) {
-        names.push_back(mip_level_name(level, directions(p) == 6 ? d : -1));
-        which.emplace_back(level, d);
-      }
-    std::vector<Named> named{{"level_0", volumes[0].memory}};
-    for (std::size_t i = 0; i < names.size(); ++i)
-      named.push_back({names[i], volumes[1].memory, cone_trace_level_offset(p, which[i].first, which[i].second)});
-    // Drivers compile at the first dispatch: what is timed is the second.
-    for (int runs = context_->info().api == Api::cpu ? 1 : 2; runs > 0; --runs)
-      if (Status s = context_->run(*program.value(), named, &build_times_); !s) return s;
-  }
+  held_ = {fine};
+  if (cone_trace_levels(p) == 1) return {};
+  Result<Held> coarse = hold(buffer("coarse", p.format, coarse_texels), {});
+  if (!coarse) return coarse.status();
+  held_.push_back(coarse.value());
+  const MipBuildParams m = mips_of(p);
+  const Result<Plan> made = plan(m, context_->profile());
+  if (!made) return made.status();
+  const Result<std::shared_ptr<Program>> program = context_->compile(made.value());
+  if (!program) return program.status();
+  std::vector<std::string> names;  // a Named holds no text of its own
+  std::vector<std::size_t> offsets;
+  for (int level = 1; level < cone_trace_levels(p); ++level)
+    for (int d = 0; d < directions(p); ++d) {
+      names.push_back(mip_level_name(level, directions(p) == 6 ? d : -1));
+      offsets.push_back(cone_trace_level_offset(p, level, d));
+    }
+  std::vector<Named> named{{"level_0", fine.memory}};
+  for (std::size_t i = 0; i < names.size(); ++i) named.push_back({names[i], coarse.value().memory, offsets[i]});
+  // Drivers compile at the first dispatch: what is timed is the second.
+  for (int runs = context_->info().api == Api::cpu ? 1 : 2; runs > 0; --runs)
+    if (Status s = context_->run(*program.value(), named, &build_times_); !s) return s;
+  return {};
+}
+
+Status ConeScene::build(const ConeTraceParams& p, std::span<const double> level_0) {
+  Result<Held> fine = hold(buffer("fine", p.format, static_cast<std::size_t>(p.extent[0]) * p.extent[1] * p.extent[2]), level_0);
+  if (!fine) return fine.status();
+  if (Status s = build_coarse(p, fine.value()); !s) return s;
   if (p.input == Input::image) {
     Resource fine_image{"fine"}, coarse_image{"coarse"};
     fine_image.kind = coarse_image.kind = ResourceKind::sampled_image;
@@ -123,18 +137,16 @@ Status ConeScene::build(const ConeTraceParams& p, std::span<const double> level_
     fine_image.extent = p.extent;
     fine = hold(fine_image, level_0);
     if (!fine) return fine.status();
-    if (volumes.size() > 1) {
-      std::vector<std::byte> data(coarse_texels *
-                                  (context_->real64() ? 32 : bytes_per_pixel(p.format)));
-      if (Status s = context_->download(*volumes[1].memory, data.data(), data.size()); !s) return s;
+    if (held_.size() > 1) {
+      std::vector<std::byte> data(cone_trace_coarse_texels(p) * (context_->real64() ? 32 : bytes_per_pixel(p.format)));
+      if (Status s = context_->download(*held_[1].memory, data.data(), data.size()); !s) return s;
       coarse_image.extent = cone_trace_atlas_extent(p);
       Result<Held> coarse = hold(coarse_image, atlas(p, fetch(data, p.format, context_->real64())));
       if (!coarse) return coarse.status();
-      volumes[1] = coarse.value();
+      held_[1] = coarse.value();
     }
-    volumes[0] = fine.value();
+    held_[0] = fine.value();
   }
-  held_ = volumes;
   return {};
 }
 

@@ -19,6 +19,8 @@ class ConeScene {
  public:
   /// Builds all levels of the params' volume from level 0, [z][y][x][4]. The context must outlive it.
   static Result<ConeScene> make(Context& context, const ConeTraceParams& params, std::span<const double> level_0);
+  /// The same from level 0 as a device stores it, for volumes that are large; for buffers, not in double.
+  static Result<ConeScene> make(Context& context, const ConeTraceParams& params, std::span<const std::byte> level_0);
 
   /// Sets the receivers ([n][8]; n = width * height of the params that are traced) and, for specular, views ([n][4]).
   Status receive(std::span<const double> receivers, std::span<const double> views = {});
@@ -42,6 +44,7 @@ class ConeScene {
   };
   Result<Held> hold(const Resource& resource, std::span<const double> values);
   Status build(const ConeTraceParams& params, std::span<const double> level_0);
+  Status build_coarse(const ConeTraceParams& params, const Held& fine);
 
   Context* context_ = nullptr;
   std::vector<Held> held_;  // volumes and receivers
