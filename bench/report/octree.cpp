@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <luxel/mip_build.h>
 
+#include "bench/report/mips.h"
 #include "bench/report/stage.h"
 #include "bench/scene/voxel_scene.h"
 #include "host/module.h"
@@ -138,14 +139,6 @@ Result<std::shared_ptr<Run>> ready(Session& session, const Result<Plan>& plan) {
   auto run = Run::make(session.context(), plan);
   if (!run) return run.status();
   return std::make_shared<Run>(std::move(run).value());
-}
-
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status s = run->go(1, &times); !s) return s;
-    return times.total;
-  };
 }
 
 void reproduced(Session& session, const char* claim, const Sample& ratio, const std::string& reason) {
