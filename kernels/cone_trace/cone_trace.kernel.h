@@ -113,6 +113,16 @@ FN vec2 within(vec2 range, float p, float d, float n) {
 
 // What passing `step` of a look-up adds, premultiplied: its opacity stands for 1 / k of a finest voxel's width.
 FN vec4 crossed(vec4 v, float k_step) { return extinction_part(v.w, k_step) * v; }
+// Between two levels. Opacities per one length are blended first, as neighbours in a level are, and corrected once.
+#ifdef CLIPMAP
+#define ONE_LENGTH (OWN_LENGTH == 0)
+#else
+#define ONE_LENGTH (ANISOTROPIC == 0)
+#endif
+FN vec4 crossed_between(vec4 finer, float finer_step, vec4 wider, float wider_step, float f) {
+    if (ONE_LENGTH) return crossed(blend(finer, wider, f), finer_step);
+    return blend(crossed(finer, finer_step), crossed(wider, wider_step), f);
+}
 FN bool is_empty(vec4 v) { return SKIP_EMPTY != 0 && v.x + v.y + v.z + v.w == 0.0f; }
 
 #ifdef CLIPMAP
@@ -253,7 +263,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread, float sky_level) {
             v = crossed(v, step * k);
         } else if (!is_empty(v)) {
             LOOKED_UP(1)
-            v = blend(crossed(level_at(ctx, level, at), step * k), crossed(v, step * per_length(ctx, level + 1)), which.y);
+            v = crossed_between(level_at(ctx, level, at), step * k, v, step * per_length(ctx, level + 1), which.y);
         }
         ACCUMULATE(v)
     }
@@ -274,7 +284,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread, float sky_level) {
         vec4 v = coarse_at(ctx, at * next_scale, d, next_e, next_at);
         if (!is_empty(v)) {
             LOOKED_UP(1)
-            v = blend(crossed(fine_at(ctx, at), step), crossed(v, step * next_k), log2_part(width));
+            v = crossed_between(fine_at(ctx, at), step, v, step * next_k, log2_part(width));
         }
         ACCUMULATE(v)
     }
@@ -299,7 +309,7 @@ FN vec4 cone(CTX, vec3 p, vec3 d, float spread, float sky_level) {
             if (!is_empty(v)) {
                 LOOKED_UP(VOLUMES)
                 const float f = top ? 0.0f : log2_part(width * per_size);
-                v = blend(crossed(coarse_at(ctx, at * scale, d, e, first), step * k), crossed(v, step * next_k), f);
+                v = crossed_between(coarse_at(ctx, at * scale, d, e, first), step * k, v, step * next_k, f);
             }
             ACCUMULATE(v)
         }
