@@ -217,11 +217,10 @@ FN vec4 place_of(CTX, ivec3 at, ivec3 count) {
 // Corner k of a cage in the order that begins with `first`: (i + 3) mod 8, or xor with 7, 6, 7, 5, 7, 6, 7.
 FN int ordered(int first, int k) {
     if (ORDER == 0) return (first + 3 * k) & 7;
-    const int turns = k & 7;
-    const int low = turns & 1;
-    // The running xor of the sequence: 0 7 1 6 4 3 5 2.
-    const int even = (turns & 2) != 0 ? ((turns & 4) != 0 ? 5 : 1) : ((turns & 4) != 0 ? 4 : 0);
-    return first ^ (low != 0 ? 7 ^ even : even);
+    // What the xors come to: 0 7 1 6 3 4 2 5, Gray's code of k / 2, inverted where k is odd.
+    const int pair = (k >> 1) & 3;
+    const int even = pair ^ (pair >> 1);
+    return first ^ ((k & 1) != 0 ? 7 ^ even : even);
 }
 
 FN void trace_ray(CTX, int i) {
