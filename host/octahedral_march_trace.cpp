@@ -33,7 +33,7 @@ Status validate(const ProbeTraceParams& p) {
   LUXEL_CHECK(check_range("ProbeTraceParams.tries", p.tries, 1, 24));
   LUXEL_CHECK(check_range("ProbeTraceParams.order", static_cast<int>(p.order), 0, 1));
   LUXEL_CHECK(check_range("ProbeTraceParams.max_steps", p.max_steps, 0, most_steps));
-  LUXEL_CHECK(check_range("ProbeTraceParams.thickness", p.thickness, 0.25, 64.0));
+  LUXEL_CHECK(check_range("ProbeTraceParams.thickness", p.thickness, 0.125, 64.0));
   LUXEL_CHECK(check_range("ProbeTraceParams.slope", p.slope, 0.0, 64.0));
   return check_range("ProbeTraceParams.bias", p.bias, 0.0, 64.0);
 }

@@ -179,8 +179,9 @@ TEST(ProbeTrace, FlatAndTwoLevelsAgree) {
         different += two.value().hits[4 * i] != flat.value().hits[4 * i] || two.value().hits[4 * i + 1] != flat.value().hits[4 * i + 1] ||
                      two.value().texels[i] != flat.value().texels[i];
       EXPECT_EQ(different, 0) << s.name << " ratio " << ratio;
-      if (ratio == 16)
+      if (ratio == 16) {
         EXPECT_LT(two.value().counters[9], 0.7 * flat.value().counters[9]) << s.name;
+      }
     }
 }
 

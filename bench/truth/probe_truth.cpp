@@ -115,18 +115,21 @@ ProbeAnswer probe_truth(const ProbeMap& map, const ProbeRay& ray, const ProbeTra
     if (std::max(r_in, r_out) < far) continue;
     const int x = part.texel % map.size, y = part.texel / map.size;
     const Vec3 w = octahedral_direction((2.0 * x + 1) / map.size - 1, (2.0 * y + 1) / map.size - 1);
-    double depth = p.thickness * far * foot_at(x, y);
+    const double depth = p.thickness * far * foot_at(x, y);
+    double reach = depth, rise = 0;
     if (!map.normal.empty()) {
-      const double facing = std::clamp(-dot(map.normal[i], w), 0.0, 1.0), rise = std::sqrt(1 - facing * facing);
-      depth *= 1 + (rise < p.slope * facing ? rise / facing : p.slope);
+      const double facing = std::clamp(-dot(map.normal[i], w), 0.0, 1.0);
+      rise = std::sqrt(1 - facing * facing);
+      reach *= 1 + (rise < p.slope * facing ? rise / facing : p.slope);
     }
-    decide(r_in, far + depth);
-    if (!(r_in <= far + depth)) {
+    const auto unknown = [&] {
       answer.outcome = ProbeOutcome::unknown;
       answer.t = part.in;
       answer.texel = part.texel;
       return answer;
-    }
+    };
+    decide(r_in, far + reach);
+    if (!(r_in <= far + reach)) return unknown();
     if (start > ray.begin) decide(part.out, start);
     double t = part.in;
     if (map.normal.empty()) {
@@ -140,6 +143,10 @@ ProbeAnswer probe_truth(const ProbeMap& map, const ProbeRay& ray, const ProbeTra
       const double approach = dot(map.normal[i], ray.direction);
       const double above = dot(map.normal[i], ray.origin) - far * dot(map.normal[i], w);
       answer.margin = std::min(answer.margin, std::fabs(approach));
+      if (approach < 0) {
+        decide(above + part.in * approach, -depth * (0.25 + rise));
+        if (above + part.in * approach < -depth * (0.25 + rise)) return unknown();
+      }
       if (approach >= 0 || part.out <= start) continue;
       if (part.out < endless) {
         decide(above, -part.out * approach);

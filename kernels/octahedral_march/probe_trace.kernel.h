@@ -78,11 +78,14 @@ FN vec2 meet(CTX, int texel, vec3 q, float far, vec3 o, vec3 d, float t_in, floa
     const float facing = min(max(-dot3(n, towards), 0.0f), 1.0f);
     const float rise = sqrt(max(1.0f - facing * facing, 0.0f));
     const float steepness = rise < params.slope * facing ? rise / facing : params.slope;
-    const float depth = params.thickness * (far * footprint(q, params.size)) * (1.0f + steepness);
-    if (!(r_in <= far + depth)) return vec2(float(UNKNOWN), t_in);
-    // Backs are not hit, nor planes that are not reached within the texel.
+    const float depth = params.thickness * (far * footprint(q, params.size));
+    // Behind the surface: farther than it reaches in this texel, or below its plane by more than the plane's own step from
+    // texel to texel, which is the most that a ray can be and have been in front of the texel before.
     const float approach = dot3(n, d);
     const float above = dot3(n, o) - far * dot3(n, towards);
+    if (!(r_in <= far + depth * (1.0f + steepness))) return vec2(float(UNKNOWN), t_in);
+    if (approach < 0.0f && above + t_in * approach < -depth * (0.25f + rise)) return vec2(float(UNKNOWN), t_in);
+    // Backs are not hit, nor planes that are not reached within the texel.
     if (approach >= 0.0f || t_out <= start || (t_out < ENDLESS && above + t_out * approach > 0.0f)) return vec2(0.0f, 0.0f);
     const float slack = min(t_out, ENDLESS) - t_in;
     return vec2(float(HIT), clamp(above / -approach, max(t_in - slack, start), t_out + slack));
