@@ -143,17 +143,21 @@ ProbeAnswer probe_truth(const ProbeMap& map, const ProbeRay& ray, const ProbeTra
       const double approach = dot(map.normal[i], ray.direction);
       const double above = dot(map.normal[i], ray.origin) - far * dot(map.normal[i], w);
       answer.margin = std::min(answer.margin, std::fabs(approach));
-      if (approach < 0) {
-        decide(above + part.in * approach, -depth * (0.25 + rise));
-        if (above + part.in * approach < -depth * (0.25 + rise)) return unknown();
-      }
       if (approach >= 0 || part.out <= start) continue;
+      const double least = part.in <= start ? 0 : -depth * (0.25 + rise);
+      decide(above + part.in * approach, least);
+      if (above + part.in * approach < least) return unknown();
       if (part.out < endless) {
         decide(above, -part.out * approach);
         if (above + part.out * approach > 0) continue;
       }
+      const auto leaves = [&](double radius) {
+        const double b = dot(ray.origin, ray.direction), r = std::max(radius, 0.0);
+        return std::sqrt(std::max(r * r - (dot(ray.origin, ray.origin) - b * b), 0.0)) - b;
+      };
       const double slack = std::min(part.out, endless) - part.in;
       t = std::clamp(above / -approach, std::max(part.in - slack, start), part.out + slack);
+      t = std::clamp(t, std::min(part.in, leaves(far - reach)), std::max(part.in, leaves(far + reach)));
     }
     answer.outcome = ProbeOutcome::hit;
     answer.t = t;

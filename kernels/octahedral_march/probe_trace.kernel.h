@@ -68,6 +68,13 @@ FN float footprint(vec3 q, int size) {
     return 2.0f / (float(size) * sqrt(squared * sqrt(squared)));
 }
 
+// Where the ray leaves the ball of this radius about the probe; where it is nearest to the probe if it never is inside.
+FN float at_radius(float r, vec3 o, vec3 d) {
+    const vec3 moment = cross3(o, d);
+    const float inside = max(r, 0.0f);
+    return sqrt(max(inside * inside - dot3(moment, moment), 0.0f)) - dot3(o, d);
+}
+
 // What a texel that the ray is not in front of means: outcome (0: go on) and where. q: its centre; o, d: about the probe;
 // r: distance from the probe.
 #if NORMALS
@@ -80,24 +87,26 @@ FN vec2 meet(CTX, int texel, vec3 q, float far, vec3 o, vec3 d, float t_in, floa
     const float steepness = rise < params.slope * facing ? rise / facing : params.slope;
     const float depth = params.thickness * (far * footprint(q, params.size));
     // Behind the surface: farther than it reaches in this texel, or below its plane by more than the plane's own step from
-    // texel to texel, which is the most that a ray can be and have been in front of the texel before.
+    // texel to texel, which is the most that a ray can be and have been in front of the texel before; where the ray begins
+    // there is none before.
     const float approach = dot3(n, d);
     const float above = dot3(n, o) - far * dot3(n, towards);
-    if (!(r_in <= far + depth * (1.0f + steepness))) return vec2(float(UNKNOWN), t_in);
-    if (approach < 0.0f && above + t_in * approach < -depth * (0.25f + rise)) return vec2(float(UNKNOWN), t_in);
-    // Backs are not hit, nor planes that are not reached within the texel.
-    if (approach >= 0.0f || t_out <= start || (t_out < ENDLESS && above + t_out * approach > 0.0f)) return vec2(0.0f, 0.0f);
+    const float span = depth * (1.0f + steepness);
+    if (!(r_in <= far + span)) return vec2(float(UNKNOWN), t_in);
+    if (approach >= 0.0f || t_out <= start) return vec2(0.0f, 0.0f);  // a back, or too near to where the ray begins
+    if (above + t_in * approach < (t_in <= start ? 0.0f : -depth * (0.25f + rise))) return vec2(float(UNKNOWN), t_in);
+    if (t_out < ENDLESS && above + t_out * approach > 0.0f) return vec2(0.0f, 0.0f);  // the plane is not reached in the texel
+    // Where the plane is met; not far from the texel's part of the ray, nor from the distance that it saw.
     const float slack = min(t_out, ENDLESS) - t_in;
-    return vec2(float(HIT), clamp(above / -approach, max(t_in - slack, start), t_out + slack));
+    const float t = clamp(above / -approach, max(t_in - slack, start), t_out + slack);
+    return vec2(float(HIT), clamp(t, min(t_in, at_radius(far - span, o, d)), max(t_in, at_radius(far + span, o, d))));
 }
 #else
 FN vec2 meet(CTX, vec3 q, float far, vec3 o, vec3 d, float t_in, float t_out, float r_in, float r_out, float start) {
     const float depth = params.thickness * (far * footprint(q, params.size));
     if (!(r_in <= far + depth)) return vec2(float(UNKNOWN), t_in);
     if ((r_in > far && r_out < far) || t_out <= start) return vec2(0.0f, 0.0f);
-    const vec3 moment = cross3(o, d);
-    const float t = sqrt(max(far * far - dot3(moment, moment), 0.0f)) - dot3(o, d);
-    return vec2(float(HIT), r_in > far ? t_in : clamp(t, t_in, t_out));
+    return vec2(float(HIT), r_in > far ? t_in : clamp(at_radius(far, o, d), t_in, t_out));
 }
 #endif
 
@@ -112,6 +121,8 @@ FN vec4 walk(CTX, int probe, vec3 o, vec3 d, vec4 a, vec4 b, float tw_a, float t
     const int ahead_x = ahead_of(v.x);
     const int ahead_y = ahead_of(v.y);
     const int last = params.size - 1;
+    const int border_x = ahead_x * params.size;
+    const int border_y = ahead_y * params.size;
     const int cells = params.size >> params.coarse;
     // |q(s)|^2 = q0 + s (q1 + s q2), w(s) = a.w + s dw, t w = tw_a + s dtw.
     const vec3 from = vec3(a.x, a.y, a.z);
@@ -130,11 +141,14 @@ FN vec4 walk(CTX, int probe, vec3 o, vec3 d, vec4 a, vec4 b, float tw_a, float t
     int y = clamp(pixel_at(0.0f, p.y, v.y, inverse_y, ahead_y), 0, last);
     int level = params.coarse;
     int looks = looked;
-    while (x >= 0 && y >= 0 && x <= last && y <= last) {
+    while (s < 1.0f) {
         if (looks >= params.step_cap) return vec4(float(CAPPED), (tw_a + s * dtw) / w, float(y * params.size + x), float(looks));
         ++looks;
-        const float met_x = plane_met(far_plane(x, level, ahead_x), p.x, inverse_x);
-        const float met_y = plane_met(far_plane(y, level, ahead_y), p.y, inverse_y);
+        // The map's borders are where pieces end, never crossed: along one a ray stays in its texels.
+        const int far_x = far_plane(x, level, ahead_x);
+        const int far_y = far_plane(y, level, ahead_y);
+        const float met_x = far_x == border_x ? ENDLESS : plane_met(far_x, p.x, inverse_x);
+        const float met_y = far_y == border_y ? ENDLESS : plane_met(far_y, p.y, inverse_y);
         const float s_out = min(min(met_x, met_y), 1.0f);
         const float w_out = s_out >= 1.0f ? b.w : a.w + s_out * dw;
         const float q_out = q0 + s_out * (q1 + s_out * q2);
@@ -165,16 +179,15 @@ FN vec4 walk(CTX, int probe, vec3 o, vec3 d, vec4 a, vec4 b, float tw_a, float t
                 if (met.x > 0.0f) return vec4(met.x, met.y, float(y * params.size + x), float(looks));
             }
         }
-        if (s_out >= 1.0f) break;
         s = s_out;
         w = w_out;
         q = q_out;
         const int from_x = x;
         const int from_y = y;
         if (met_x <= met_y) x = next_pixel(x, level, ahead_x);
-        else if (level > 0) x = pixel_at(s, p.x, v.x, inverse_x, ahead_x);
+        else if (level > 0) x = clamp(pixel_at(s, p.x, v.x, inverse_x, ahead_x), 0, last);
         if (met_y <= met_x) y = next_pixel(y, level, ahead_y);
-        else if (level > 0) y = pixel_at(s, p.y, v.y, inverse_y, ahead_y);
+        else if (level > 0) y = clamp(pixel_at(s, p.y, v.y, inverse_y, ahead_y), 0, last);
         if ((from_x >> params.coarse) != (x >> params.coarse) || (from_y >> params.coarse) != (y >> params.coarse)) level = params.coarse;
     }
     return vec4(0.0f, 0.0f, 0.0f, float(looks));
