@@ -120,7 +120,7 @@ ProbeAnswer probe_truth(const ProbeMap& map, const ProbeRay& ray, const ProbeTra
     if (!map.normal.empty()) {
       const double facing = std::clamp(-dot(map.normal[i], w), 0.0, 1.0);
       rise = std::sqrt(1 - facing * facing);
-      reach *= 1 + (rise < p.slope * facing ? rise / facing : p.slope);
+      reach += far * foot_at(x, y) * (rise < p.slope * facing ? rise / facing : p.slope);
     }
     const auto unknown = [&] {
       answer.outcome = ProbeOutcome::unknown;
@@ -144,9 +144,10 @@ ProbeAnswer probe_truth(const ProbeMap& map, const ProbeRay& ray, const ProbeTra
       const double above = dot(map.normal[i], ray.origin) - far * dot(map.normal[i], w);
       answer.margin = std::min(answer.margin, std::fabs(approach));
       if (approach >= 0 || part.out <= start) continue;
-      const double least = part.in <= start ? 0 : -depth * (0.25 + rise);
+      const double least = -depth * (0.25 + rise);
+      decide(above, -start * approach);
       decide(above + part.in * approach, least);
-      if (above + part.in * approach < least) return unknown();
+      if (above + start * approach < 0 || above + part.in * approach < least) return unknown();
       if (part.out < endless) {
         decide(above, -part.out * approach);
         if (above + part.out * approach > 0) continue;

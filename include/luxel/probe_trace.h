@@ -19,8 +19,9 @@ struct ProbeTraceParams {
   ProbeOrder order = ProbeOrder::plus3;
   int max_steps = 0;     // looks at maps a ray; 0: as many as the longest may need
   double thickness = 0.5;  // of what is seen, in texel footprints (the side of a square of the texel's solid angle, at its
-                         // distance), 0.125..64. A ray that enters a texel farther behind what it saw is behind it; with
-                         // normals the distance times 1 + the surface's slope, and below its plane times 1/4 + the slope's sine
+                         // distance), 0.125..64. A ray that enters a texel farther behind what it saw is behind it: in
+                         // distance (with normals beside the surface's slope over a footprint), and with normals below its
+                         // plane by the thickness times 1/4 + the slope's sine
   double slope = 8;      // with normals: the largest slope that counts, 0..64
   double bias = 0;       // nothing is hit nearer to a ray's beginning than this many footprints there; rays that start on a
                          // surface need 1 or more where there are no normals. 0..64

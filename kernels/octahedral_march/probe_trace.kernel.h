@@ -85,16 +85,17 @@ FN vec2 meet(CTX, int texel, vec3 q, float far, vec3 o, vec3 d, float t_in, floa
     const float facing = min(max(-dot3(n, towards), 0.0f), 1.0f);
     const float rise = sqrt(max(1.0f - facing * facing, 0.0f));
     const float steepness = rise < params.slope * facing ? rise / facing : params.slope;
-    const float depth = params.thickness * (far * footprint(q, params.size));
+    const float foot = far * footprint(q, params.size);
+    const float depth = params.thickness * foot;
     // Behind the surface: farther than it reaches in this texel, or below its plane by more than the plane's own step from
-    // texel to texel, which is the most that a ray can be and have been in front of the texel before; where the ray begins
-    // there is none before.
+    // texel to texel, which is the most that a ray can be and have been in front of the texel before; or below it
+    // where the ray begins, for then it never met it.
     const float approach = dot3(n, d);
     const float above = dot3(n, o) - far * dot3(n, towards);
-    const float span = depth * (1.0f + steepness);
+    const float span = depth + foot * steepness;
     if (!(r_in <= far + span)) return vec2(float(UNKNOWN), t_in);
     if (approach >= 0.0f || t_out <= start) return vec2(0.0f, 0.0f);  // a back, or too near to where the ray begins
-    if (above + t_in * approach < (t_in <= start ? 0.0f : -depth * (0.25f + rise))) return vec2(float(UNKNOWN), t_in);
+    if (above + start * approach < 0.0f || above + t_in * approach < -depth * (0.25f + rise)) return vec2(float(UNKNOWN), t_in);
     if (t_out < ENDLESS && above + t_out * approach > 0.0f) return vec2(0.0f, 0.0f);  // the plane is not reached in the texel
     // Where the plane is met; not far from the texel's part of the ray, nor from the distance that it saw.
     const float slack = min(t_out, ENDLESS) - t_in;
