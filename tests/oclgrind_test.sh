@@ -32,4 +32,6 @@ check voxel_inject_test 'VoxelInject.SameBits*:VoxelInject.AWindow*'
 check voxel_inject_map_test 'VoxelInjectMap.BadTexels*:VoxelInjectMap.LightsAndAMap*:VoxelInjectMap.WhereAMap*'
 check cone_trace_test 'ConeTraceSmall*:ConeTrace.TurnedSets*:ConeTrace.ASky*'
 check cone_trace_clipmap_test 'ConeTraceClipmap.AMoved*'
+check octahedral_march_stability_test '*opencl_rays_inside*:*opencl_rays_along*:*opencl_all_eight_hidden__plus3*'
+check octahedral_march_build_test 'ProbeBuild.MinimumIs*'
 exit $failed

@@ -381,6 +381,36 @@ END
   done
 done
 
+# ---- Probes: of a scene, shown, and rays through them: to the back wall of the box, out of its open side, and no ray.
+python <<'END'
+inf = float('inf')
+write('walk.npy', (3, 8), [0, 1.8, 0.5, 0, 0, 0, -2, inf] + [0, 1.8, 0.5, 0, 0, 0, 1, inf] + [0, 0, 0, 0, 0, 0, 0, 1])
+write('short.npy', (3, 7), [0] * 21)
+write('one_place.npy', (1, 3), [0, 0, 0])
+END
+expect 2 'expected either --scene, or --radiance, --distance or --normal files' "$luxel" probes build -o box
+expect 2 '--grid: |ProbeGrid.count is 0; expected 1\.\.1024' "$luxel" probes build --scene cornell --grid 0,1,1 -o box
+expect 2 'ProbeMaps.size is 33; expected an even number' "$luxel" probes build --scene cornell --resolution 33 -o box
+expect 0 'probes build: 8 probes in cornell, 2 inside geometry, 32\^2 texels each; wrote box' "$luxel" probes build --scene cornell --resolution 32 -o box
+expect 0 'probes show: radiance of probe 7 of box, 32x32; wrote seven.png' "$luxel" probes show --probes box --probe 7 -o seven.png
+expect 2 '--probe is 8; expected 0\.\.7' "$luxel" probes show --probes box --probe 8 -o seven.png
+expect 2 'short\.npy: expected shape \[n\]\[8\]' "$luxel" probes trace --probes box --rays short.npy -o a.npy
+for device in $devices cpu:double; do
+  expect 0 "probes trace two_level through 8 probes 32\^2 on .*: 3 rays, 1 hit, 1 missed, 0 assumed, 0 unknown, 0 capped, 1 degenerate" "$luxel" probes trace --probes box --rays walk.npy --device "$device" -o met.npy
+  python <<'END'
+shape, v = read('met.npy')
+assert shape == (3, 8) and v[0] == 1 and abs(v[1] - 1.5) < 1e-3 and abs(v[4] + 1) < 1e-3, v
+assert v[8] == 2 and v[9] == float('inf') and v[13] == -1 and v[16] == 5, v
+END
+done
+python <<'END'
+write('even.npy', (4, 8), [2] * 32)
+END
+expect 0 'probes build: 1 probes of images 8x4 on .*, 16\^2 texels each; wrote even' "$luxel" probes build --radiance even.npy --distance even.npy --positions one_place.npy --resolution 16 --device cpu -o even
+python <<'END'
+assert all(x == 2 for x in read('even/radiance.npy')[1]) and all(x == 2 for x in read('even/distance.npy')[1])
+END
+
 # ---- bilateral
 python <<'END'
 w, h = 24, 16

@@ -13,6 +13,7 @@
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
+#include "bench/report/probes.h"
 #include "bench/report/rendered.h"
 #include "bench/report/screens.h"
 #include "bench/report/session.h"
@@ -22,6 +23,7 @@
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
 #include "tests/cases/mip_build_cases.h"
+#include "tests/cases/octahedral_march_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
 
@@ -96,6 +98,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, screen_left_out(session));
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
+  }
+  if (settings.wants("octahedral_march")) {
+    append(jobs, probe_grid(session));
+    append(jobs, probe_left_out(session));
+    append(jobs, probe_reproduction(session));
+    append(jobs, probe_peers(session));
+    append(jobs, stability_jobs(session, cases::octahedral_march_cases()));
   }
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);
