@@ -14,8 +14,8 @@ namespace luxel::truth {
 std::array<double, 3> octahedral_direction(double u, double v);
 std::array<double, 2> octahedral_place(const std::array<double, 3>& direction);
 
-/// `visit(direction, solid angle)` for points of a map of size x size texels, each texel by `parts` x `parts` points (Gauss-free:
-/// the middles of equal parts of the map, with the map's exact area element).
+/// `visit(direction, solid angle)` for points of a map of size x size texels, each texel by `parts` x `parts` points:
+/// the middles of equal parts of the map, with its exact area element.
 void over_sphere(int size, int parts, const std::function<void(int texel, const std::array<double, 3>&, double)>& visit);
 
 /// Irradiance on a surface of unit normal n under a radiance of directions, by quadrature over 2^22 points or so.

@@ -1,15 +1,6 @@
 // Octahedral maps with a border of one texel, which holds what lies across the edge, so that a bilinear look-up reads four
 // texels without asking where they are. A map of `size` has size + 2 texels along each side.
 
-// Direction of a texel's centre (not of unit length); coordinates 0 .. size - 1.
-FN vec3 octahedral_towards(int x, int y, int size) {
-    const float u = (2.0f * float(x) + 1.0f) / float(size) - 1.0f;
-    const float v = (2.0f * float(y) + 1.0f) / float(size) - 1.0f;
-    const float z = 1.0f - abs(u) - abs(v);
-    if (z >= 0.0f) return vec3(u, v, z);
-    return vec3((1.0f - abs(v)) * (u < 0.0f ? -1.0f : 1.0f), (1.0f - abs(u)) * (v < 0.0f ? -1.0f : 1.0f), z);
-}
-
 // Texels of bordered maps before texel (x, y) of map `map`; coordinates -1 .. size.
 FN int bordered(int map, int x, int y, int size) { return ((map * (size + 2)) + y + 1) * (size + 2) + x + 1; }
 

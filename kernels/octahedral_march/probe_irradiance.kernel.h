@@ -14,8 +14,7 @@ KERNEL(probe_irradiance) {
 #endif
     const int x = i % params.size;
     const int y = i / params.size;
-    const vec3 d = octahedral_towards(x, y, params.size);
-    const vec3 n = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    const vec3 n = octahedral_direction(octahedral_centre(x, y, params.size));
     const int half_size = params.reduced / 2;
     const int first = made * params.reduced * params.reduced;
     vec4 sum = vec4(0.0f);

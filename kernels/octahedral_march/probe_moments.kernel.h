@@ -58,8 +58,7 @@ KERNEL(probe_moments) {
 #endif
     const int x = i % params.size;
     const int y = i / params.size;
-    const vec3 d = octahedral_towards(x, y, params.size);
-    const vec3 n = d / sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    const vec3 n = octahedral_direction(octahedral_centre(x, y, params.size));
     float mean = gathered(ctx, made, n, false, 0.0f);
     float variance = gathered(ctx, made, n, true, mean);
     const int own = bordered(probe, x, y, params.size);

@@ -22,7 +22,7 @@ FN vec2 moment_at(CTX, int i) { return vec2(load_pixel(moments, 0, i, 0).x, load
 // Maps, 2006), sharpened. Between texels distances are mixed: mu = sum w mu_i, sigma^2 = sum w (sigma_i^2 + (mu_i - mu)^2).
 FN float visibility(CTX, int probe, vec3 v, float r) {
     const int stride = params.moments_size + 2;
-    const vec3 at = octahedral_look_up(r > 0.0f ? v : vec3(0.0f, 0.0f, 1.0f), params.moments_size);
+    const vec3 at = octahedral_look_up(v, params.moments_size);
     const int i = probe * stride * stride + int(at.x);
     const vec2 a = moment_at(ctx, i);
     const vec2 b = moment_at(ctx, i + 1);
