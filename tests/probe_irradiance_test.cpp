@@ -291,6 +291,25 @@ TEST(ProbeIrradiance, WhatCameBeforeIsMixedIn) {
     }
 }
 
+// What the mixture is for: distances about 1000 that differ by 1/100. E[r^2] - E[r]^2 in f32 is off by the variance or more
+// (the rounding of 10^6), and r^2 in halves is infinite from 256 on.
+TEST(ProbeIrradiance, DifferencesOfSquaresWouldFail) {
+  ProbeIrradianceParams p = one_probe(16, 4);
+  p.irradiance_size = 0;
+  p.grid.spacing = {1000, 1000, 1000};
+  Values distance;
+  for (std::size_t i = 0; i < 256; ++i) distance.push_back(static_cast<float>(1000 + ((i ^ (i >> 4)) % 2 == 0 ? 0.01 : -0.01)));
+  float mean = 0, squares = 0;
+  for (const double d : distance) mean += static_cast<float>(d) / 256, squares += static_cast<float>(d) * static_cast<float>(d) / 256;
+  EXPECT_GE(std::fabs(squares - mean * mean - 1e-4f), 0.99e-4f);  // all of it is lost, or more
+  EXPECT_EQ(quantise(std::vector<double>{256.0 * 256}, Format::f16x2)[0], 65504);  // r^2: no room
+  for (const std::string& device : test_devices()) {
+    const auto r = filter(test_context(device), p, {{}, distance});
+    ASSERT_TRUE(r) << r.status().message();
+    for (std::size_t i = 1; i < r.value().moments.size(); i += 2) EXPECT_NEAR(r.value().moments[i] * probe_unit(p.grid), 0.01, 0.002) << device;
+  }
+}
+
 struct Refusal {
   std::function<void(ProbeIrradianceParams&)> change;
   const char* message;

@@ -28,9 +28,10 @@ void add_room(LeakStage& stage, bool dark, double step) {
     const dvec3 a = s.positions[s.indices[i].x], b = s.positions[s.indices[i].y], c = s.positions[s.indices[i].z];
     const dvec3 cross = glm::cross(b - a, c - a), middle = (a + b + c) / 3.0;
     const double area = glm::length(cross) / 2;
-    // What lies in the wall's own thickness belongs to no room; emitters hold what they send.
+    // What lies in the wall's own thickness belongs to no room, nor do undersides of blocks; emitters hold what they send.
     if (area == 0 || (middle.x > 0) != dark || std::fabs(middle.x) < 0.0099 || s.material_of(i).emission != dvec3(0)) continue;
     const dvec3 n = cross / (2 * area);
+    if (n.y < -0.5 && middle.y < 1e-3) continue;
     const int cuts = std::max(1, static_cast<int>(std::ceil(std::sqrt(2 * area) / step)));
     for (int v = 0; v < cuts; ++v)
       for (int u = 0; u < 2 * (cuts - v) - 1; ++u) {

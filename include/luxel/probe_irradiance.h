@@ -20,8 +20,8 @@ struct ProbeIrradianceParams {
   Format irradiance_format = Format::f16x4;  // f32x4, f16x4
   Format moments_format = Format::f16x2;     // f32x2, f16x2
   bool previous = false;          // maps are blended with those of before
-  double hysteresis = 0.98;       // part of these that stays, 0..1. In half floats a map comes no nearer than 2^-12 / (1 -
-                                  // hysteresis) of its value: 1.2 % at 0.98
+  double hysteresis = 0.98;       // part of these that stays, 0..1. In half floats a map may stop 2^-11 / (1 -
+                                  // hysteresis) of its value short: 2.4 % at 0.98
 };
 
 /// Resources of the plan:

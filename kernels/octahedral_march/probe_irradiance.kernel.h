@@ -19,7 +19,8 @@ KERNEL(probe_irradiance) {
     const int first = made * params.reduced * params.reduced;
     vec4 sum = vec4(0.0f);
     // Four texels that mirror each other in the planes x = 0 and y = 0.
-    for (int v = 0; v < half_size; ++v)
+    for (int v = 0; v < half_size; ++v) {
+        vec4 row = vec4(0.0f);  // sums of few terms keep more digits
         for (int u = 0; u < half_size; ++u) {
             const int k = 4 * (v * half_size + u);
             const float area = table(texels, k + 3);
@@ -30,11 +31,13 @@ KERNEL(probe_irradiance) {
             const int left = first + half_size - 1 - u;
             const int down = (half_size + v) * params.reduced;
             const int up = (half_size - 1 - v) * params.reduced;
-            sum = sum + (area * max(0.0f, c + a + b)) * load(means, down + right);
-            sum = sum + (area * max(0.0f, c - a + b)) * load(means, down + left);
-            sum = sum + (area * max(0.0f, c + a - b)) * load(means, up + right);
-            sum = sum + (area * max(0.0f, c - a - b)) * load(means, up + left);
+            row = row + (area * max(0.0f, c + a + b)) * load(means, down + right);
+            row = row + (area * max(0.0f, c - a + b)) * load(means, down + left);
+            row = row + (area * max(0.0f, c + a - b)) * load(means, up + right);
+            row = row + (area * max(0.0f, c - a - b)) * load(means, up + left);
         }
+        sum = sum + row;
+    }
     vec4 e = sum.w > 0.0f ? (3.14159265358979f / sum.w) * vec4(sum.x, sum.y, sum.z, 0.0f) : vec4(0.0f);
     const int own = bordered(probe, x, y, params.size);
 #if PREVIOUS
