@@ -6,7 +6,7 @@
 #include <luxel/probe_irradiance.h>
 #include <luxel/probe_shade.h>
 
-#include "bench/truth/probe_truth.h"
+#include "bench/truth/probe_light_truth.h"
 #include "tests/cases/case.h"
 
 namespace luxel::cases {

@@ -1,4 +1,4 @@
-#include "bench/truth/probe_truth.h"
+#include "bench/truth/probe_light_truth.h"
 
 #include <algorithm>
 #include <cmath>
