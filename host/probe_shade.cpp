@@ -63,7 +63,7 @@ Result<Plan> plan(const ProbeShadeParams& p, const Profile& profile) {
   bytes += resource("light", p.irradiance_format, probe_map_texels(probes, p.irradiance_size));
   if (p.visibility) bytes += resource("moments", half ? Format::f16x2 : Format::f32x2, probe_map_texels(probes, p.moments_size));
   if (p.grid.placed) bytes += resource("positions", Format::f32x4, probes);
-  if (p.count) resource("counters", Format::u32, probe_outcomes, true);
+  if (p.count) resource("counters", Format::u32, probe_shade_outcomes, true);
   std::string module = p.count ? "count_" : profile.texels ? "texels_" : "";
   module += p.visibility ? "visible_" : "plain_";
   module += p.grid.placed ? "placed_" : "";

@@ -205,14 +205,14 @@ Result<ProbeLit> ProbeScene::shade(const ProbeShadeParams& knobs, const std::vec
   ProbeShadeParams p = shade_params(knobs, receivers.size() / 8);
   ProbeLit out;
   if (p.count) {
-    const std::vector<std::uint32_t> zeros(probe_outcomes, 0);
+    const std::vector<std::uint32_t> zeros(probe_shade_outcomes, 0);
     TRY(put("counters", Format::u32, zeros.size(), zeros.data()));
   }
   auto lit = lit_by("irradiance", p, receivers, "probe_shade", shade_steps_);
   if (!lit) return lit.status();
   out.indirect = std::move(lit).value();
   if (p.count) {
-    out.counters.resize(probe_outcomes);
+    out.counters.resize(probe_shade_outcomes);
     TRY(context_->download(*memories_["counters"].memory, out.counters.data(), out.counters.size() * 4));
     // Receivers that fill the last row are none.
     const auto spare = static_cast<std::uint32_t>(static_cast<std::size_t>(p.width) * static_cast<std::size_t>(p.height) - receivers.size() / 8);

@@ -30,7 +30,7 @@ std::array<int, 3> probe_cubes(const Scene& scene, int longest);
 struct ProbeLit {
   std::vector<float> indirect;  // from surfaces that reflect light
   std::vector<float> direct;    // from the sky; empty where there is none
-  std::vector<std::uint32_t> counters;  // as ProbeOutcome names them, of `indirect`
+  std::vector<std::uint32_t> counters;  // as ProbeShadeOutcome names them, of `indirect`
 };
 
 /// Milliseconds: of the device where it has a clock, else of the host; of Embree's casts on the host.

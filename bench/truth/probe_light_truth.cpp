@@ -41,18 +41,6 @@ Look look(const Vec& d, int size, std::size_t map) {
 
 }  // namespace
 
-Vec octahedral_direction(double u, double v) {
-  const Vec p = octahedron(u, v);
-  const double size = std::sqrt(inner(p, p));
-  return {p[0] / size, p[1] / size, p[2] / size};
-}
-
-std::array<double, 2> octahedral_place(const Vec& d) {
-  const double sum = std::fabs(d[0]) + std::fabs(d[1]) + std::fabs(d[2]), x = d[0] / sum, y = d[1] / sum;
-  if (d[2] >= 0) return {x, y};
-  return {std::copysign(1 - std::fabs(y), x), std::copysign(1 - std::fabs(x), y)};
-}
-
 void over_sphere(int size, int parts, const std::function<void(int, const Vec&, double)>& visit) {
   const double n = static_cast<double>(size) * parts;
   for (int y = 0; y < size * parts; ++y)

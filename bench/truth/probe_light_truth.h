@@ -8,11 +8,9 @@
 #include <luxel/probe_irradiance.h>
 #include <luxel/probe_shade.h>
 
-namespace luxel::truth {
+#include "bench/truth/probe_truth.h"
 
-/// Unit direction at (u, v), both -1..1, of an octahedral map (pole +z); and the place of a direction.
-std::array<double, 3> octahedral_direction(double u, double v);
-std::array<double, 2> octahedral_place(const std::array<double, 3>& direction);
+namespace luxel::truth {
 
 /// `visit(direction, solid angle)` for points of a map of size x size texels, each texel by `parts` x `parts` points:
 /// the middles of equal parts of the map, with its exact area element.

@@ -39,7 +39,7 @@ struct ProbeShadeParams {
 };
 
 /// Outcomes, as the u32 values of `counters` that are added to.
-enum class ProbeOutcome {
+enum class ProbeShadeOutcome {
   receivers,   // all
   degenerate,  // without a place or a normal (NaN, infinite, zero), or farther than 1e12 diagonals of a cage: 0
   outside,     // beyond the outermost probes along an axis that has several: lit by the nearest cage's, as if on its side
@@ -47,7 +47,7 @@ enum class ProbeOutcome {
   lost,        // without any probe that counts: 0
   dropped      // probes whose look-ups were not finite; they count nothing
 };
-constexpr int probe_outcomes = 6;
+constexpr int probe_shade_outcomes = 6;
 
 /// Resources of the plan:
 /// - `receivers`: two vec4 each: position (scene units) and any number; normal (any length) and any number. f32x4;
@@ -56,7 +56,7 @@ constexpr int probe_outcomes = 6;
 /// - `positions` (grid.placed): a vec4 a probe, as ProbeGrid has it;
 /// - `irradiance` (written): a vec4 each: irradiance, and the share of its probes' weight that sees the receiver, 0..1
 ///   (without visibility 1);
-/// - `counters` (count): probe_outcomes u32.
+/// - `counters` (count): probe_shade_outcomes u32.
 /// Along an axis with one probe that probe counts alone. Probes in one place share what falls to it. A receiver in a probe's
 /// own place is seen by it, and faces it. Biases are in units of the grid: scenes of any scale look the same.
 /// Errors: invalid_argument, naming field, value and range.

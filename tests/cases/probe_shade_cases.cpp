@@ -42,7 +42,7 @@ ProbeShadeParams params_of(int receivers, std::array<int, 3> count = {3, 2, 4}, 
   return p;
 }
 
-double counted(const ProbeLit& lit, ProbeOutcome o) { return lit.counters[static_cast<std::size_t>(o)]; }
+double counted(const ProbeLit& lit, ProbeShadeOutcome o) { return lit.counters[static_cast<std::size_t>(o)]; }
 
 Case furnace_case(bool half) {
   return {kernel, fmt::format("even light, {}", half ? "halves" : "f32"), "maps with the same light everywhere give it at every receiver (relative difference)",
@@ -97,7 +97,7 @@ Case hidden_case(bool dark) {
             const auto plain = shade(context, p, m.scene(), receivers);
             if (!r) return r.status();
             if (!plain) return plain.status();
-            if (counted(r.value(), ProbeOutcome::hidden) != 200) return nan;
+            if (counted(r.value(), ProbeShadeOutcome::hidden) != 200) return nan;
             double most = 0;
             for (std::size_t i = 0; i < r.value().irradiance.size(); ++i) {
               const double expected = dark || i % 4 == 3 ? 0 : plain.value().irradiance[i];
@@ -200,7 +200,7 @@ Case outside_case() {
             const auto x = shade(context, p, m.scene(), outside), y = shade(context, p, m.scene(), inside);
             if (!x) return x.status();
             if (!y) return y.status();
-            if (counted(x.value(), ProbeOutcome::outside) != beyond || counted(y.value(), ProbeOutcome::outside) != 0) return nan;
+            if (counted(x.value(), ProbeShadeOutcome::outside) != beyond || counted(y.value(), ProbeShadeOutcome::outside) != 0) return nan;
             return max_difference(x.value().irradiance, y.value().irradiance);
           }};
 }
@@ -287,8 +287,8 @@ Case hostile_case() {
             double wrong = 0;
             for (std::size_t i = 0; i < 48; ++i) wrong += !(a.value().irradiance[i] == (i < 24 ? b.value().irradiance[i] : 0));
             for (std::size_t i = 0; i < 24; ++i) wrong += !std::isfinite(a.value().irradiance[i]);
-            wrong += std::fabs(counted(a.value(), ProbeOutcome::degenerate) - 6) + std::fabs(counted(a.value(), ProbeOutcome::dropped) - 18) +
-                     std::fabs(counted(a.value(), ProbeOutcome::receivers) - 12);
+            wrong += std::fabs(counted(a.value(), ProbeShadeOutcome::degenerate) - 6) + std::fabs(counted(a.value(), ProbeShadeOutcome::dropped) - 18) +
+                     std::fabs(counted(a.value(), ProbeShadeOutcome::receivers) - 12);
             return wrong;
           }};
 }
@@ -315,7 +315,7 @@ Case dead_case() {
               lost += is;
               wrong += is == (a.value().irradiance[4 * i] != 0);
             }
-            return wrong + std::fabs(counted(a.value(), ProbeOutcome::lost) - lost) + counted(b.value(), ProbeOutcome::dropped);
+            return wrong + std::fabs(counted(a.value(), ProbeShadeOutcome::lost) - lost) + counted(b.value(), ProbeShadeOutcome::dropped);
           }};
 }
 

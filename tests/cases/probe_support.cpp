@@ -113,7 +113,7 @@ Result<ProbeLit> shade(Context& context, const ProbeShadeParams& p, const truth:
   if (p.grid.placed)
     if (Status s = r.write("positions", scene.positions); !s) return s;
   if (p.count)
-    if (Status s = r.write("counters", Values(probe_outcomes, 0.0)); !s) return s;
+    if (Status s = r.write("counters", Values(probe_shade_outcomes, 0.0)); !s) return s;
   if (Status s = r.go(); !s) return s;
   ProbeLit lit;
   auto values = r.read("irradiance");
