@@ -12,6 +12,7 @@
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
+#include "bench/report/probe_light.h"
 #include "bench/report/rendered.h"
 #include "bench/report/screens.h"
 #include "bench/report/session.h"
@@ -21,6 +22,7 @@
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
 #include "tests/cases/mip_build_cases.h"
+#include "tests/cases/probe_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
 
@@ -94,6 +96,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, screen_left_out(session));
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
+  }
+  if (settings.wants("octahedral_march")) {
+    append(jobs, probe_light_grid(session, missing));
+    append(jobs, probe_light_left_out(session));
+    append(jobs, probe_light_reproduction(session));
+    append(jobs, probe_light_peers(session));
+    append(jobs, stability_jobs(session, cases::probe_cases()));
   }
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())

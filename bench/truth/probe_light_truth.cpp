@@ -95,6 +95,14 @@ std::array<double, 2> probe_moments(const ProbeIrradianceParams& p, std::span<co
   return {sum / all, std::sqrt(squares / all)};
 }
 
+std::array<double, 4> look_up(std::span<const double> maps, int channels, int size, std::size_t map, const Vec& direction) {
+  const Look l = look(direction, size, map);
+  std::array<double, 4> sum{};
+  for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c) sum[c] += l.weight[k] * maps[static_cast<std::size_t>(channels) * l.at[k] + c];
+  return sum;
+}
+
 std::array<double, 4> probe_shade(const ProbeShadeParams& p, const ProbeScene& scene, std::span<const double> r) {
   const ProbeGrid& g = p.grid;
   Vec n{r[4], r[5], r[6]};

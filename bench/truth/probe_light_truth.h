@@ -27,6 +27,9 @@ std::array<double, 3> probe_irradiance(int size, std::span<const double> radianc
 std::array<double, 2> probe_moments(const ProbeIrradianceParams& params, std::span<const double> distance,
                                     const std::array<double, 3>& n, int parts = 8);
 
+/// Bilinear in map `map` of maps with borders, 4 (irradiance) or 2 (moments) `channels` a texel; the rest 0.
+std::array<double, 4> look_up(std::span<const double> maps, int channels, int size, std::size_t map, const std::array<double, 3>& direction);
+
 /// The formula of probe_shade, for one receiver (position, normal; 8 values). `light`, `moments`: maps with their borders, as the
 /// kernel reads them; `positions`: 4 a probe, where the grid is placed.
 struct ProbeScene {

@@ -34,7 +34,7 @@ struct ProbeShadeParams {
   double footprint = 0.5;       // distances spread by at least this part of a texel of the moments, seen from the probe, 0..8
   ProbeFacing facing = ProbeFacing::smooth;
   double least_facing = 0.05;   // 0..1
-  double normal_bias = 0.2;     // probes look at a point above the surface, least spacings, 0..1
+  double normal_bias = 0.35;    // probes look at a point above the surface, least spacings, 0..1
   bool count = false;           // adds `counters`
 };
 
