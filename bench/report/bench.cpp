@@ -175,6 +175,9 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("hiz_ssr"))
     for (const BenchSetting& setting : hiz_ssr_settings(context->profile()))
       line("hiz_ssr " + setting.name, setting);
+  if (wanted.wants("octahedral_march"))
+    for (const BenchSetting& setting : probe_shade_settings(context->profile()))
+      line("octahedral_march " + setting.name, setting);
   fmt::print("\n");
   return status;
 }
