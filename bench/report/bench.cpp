@@ -178,6 +178,8 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("octahedral_march"))
     for (const BenchSetting& setting : octahedral_march_settings(context->profile()))
       line("octahedral_march " + setting.name, setting);
+    for (const BenchSetting& setting : probe_shade_settings(context->profile()))
+      line("octahedral_march " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

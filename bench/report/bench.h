@@ -47,6 +47,9 @@ std::vector<BenchSetting> hiz_ssr_settings(const Profile& profile);
 /// Main settings of octahedral_march: rays through probes of the generated atrium, and building maps.
 std::vector<BenchSetting> octahedral_march_settings(const Profile& profile);
 
+/// Main settings of probe_irradiance and probe_shade: 256 probes, 32,768 receivers.
+std::vector<BenchSetting> probe_shade_settings(const Profile& profile);
+
 /// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
                  const std::vector<std::pair<int, int>>& sizes);

@@ -10,7 +10,7 @@
 #include "host/module.h"
 
 namespace luxel::built_in {
-extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic, limit_sample, limit_march;
+extern const std::span<const Module*const> limit_copy, limit_triad, limit_arithmetic, limit_sample, limit_march, limit_probe;
 }
 
 namespace luxel::report {
@@ -177,6 +177,25 @@ Result<Plan> march_plan(int invocations, int entries, int steps, const Profile& 
                    buffer("dst", Format::f32x1, static_cast<std::size_t>(invocations), true)},
                   {static_cast<double>(invocations), static_cast<double>(entries), static_cast<double>(steps)}, {},
                   static_cast<std::uint32_t>(invocations), 1, {w[0] * w[1] * w[2], 1, 1});
+}
+
+Result<Plan> probe_reads_plan(const ProbeReads& reads, const Profile& profile) {
+  const std::string which = std::string(profile.texels ? "texels_" : "") + (reads.half ? "f16" : "f32");
+  const Module* module = module_in(built_in::limit_probe, which);
+  if (!module) return Status(Code::internal, "limit_probe has no form " + which);
+  const std::size_t pixels = static_cast<std::size_t>(reads.width) * static_cast<std::size_t>(reads.height);
+  const auto texels = [&](int size) {
+    return static_cast<std::size_t>(reads.count[0] * reads.count[1] * reads.count[2]) * static_cast<std::size_t>((size + 2) * (size + 2));
+  };
+  return one_pass("limit_probe", module,
+                  {buffer("receivers", Format::f32x4, 2 * pixels, false), buffer("dst", Format::f32x4, pixels, true),
+                   buffer("light", reads.half ? Format::f16x4 : Format::f32x4, texels(reads.light_size), false),
+                   buffer("moments", reads.half ? Format::f16x2 : Format::f32x2, texels(reads.moments_size), false)},
+                  {static_cast<double>(reads.width), static_cast<double>(reads.height), static_cast<double>(reads.count[0]),
+                   static_cast<double>(reads.count[1]), static_cast<double>(reads.count[2]), static_cast<double>(reads.light_size),
+                   static_cast<double>(reads.moments_size)},
+                  {static_cast<double>(reads.corners)}, static_cast<std::uint32_t>(reads.width), static_cast<std::uint32_t>(reads.height),
+                  profile.pixels.workgroup);
 }
 
 double march_steps(int invocations, int steps) {

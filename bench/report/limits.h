@@ -41,6 +41,17 @@ Result<Plan> sample_plan(int width, int height, int side, int looks, std::array<
 Result<Plan> march_plan(int invocations, int entries, int steps, const Profile& profile);
 double march_steps(int invocations, int steps);
 
+/// Plan of the reads of width x height receivers, each of eight probes around it: a texel of irradiance and one of moments
+/// (maps with a border), or with corners = 4 the four of a bilinear look-up. Resources receivers, dst, light, moments.
+struct ProbeReads {
+  int width = 0, height = 0;
+  std::array<int, 3> count{1, 1, 1};
+  int light_size = 8, moments_size = 16;
+  bool half = true;
+  int corners = 1;
+};
+Result<Plan> probe_reads_plan(const ProbeReads& reads, const Profile& profile);
+
 /// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
 Json machine_limits(bool quick);
 

@@ -14,6 +14,7 @@
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
 #include "bench/report/probes.h"
+#include "bench/report/probe_light.h"
 #include "bench/report/rendered.h"
 #include "bench/report/screens.h"
 #include "bench/report/session.h"
@@ -24,6 +25,7 @@
 #include "tests/cases/hiz_ssr_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/octahedral_march_cases.h"
+#include "tests/cases/probe_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
 
@@ -105,6 +107,11 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, probe_reproduction(session));
     append(jobs, probe_peers(session));
     append(jobs, stability_jobs(session, cases::octahedral_march_cases()));
+    append(jobs, probe_light_grid(session, missing));
+    append(jobs, probe_light_left_out(session));
+    append(jobs, probe_light_reproduction(session));
+    append(jobs, probe_light_peers(session));
+    append(jobs, stability_jobs(session, cases::probe_cases()));
   }
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);
