@@ -139,13 +139,13 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                      Planner::Values{{"geometry_pitch", g.pitch},
                                      {"geometry_slice", g.slice},
                                      {"geometry_plane", g.plane},
-                                     {"channels", p.channels}},
+                                     {"channels", p.channels},
+                                     {"across", step == 0 && p.bands == 3},
+                                     {"last", last}},
                  {{"LOBES", static_cast<int>(p.lobes)},
                   {"PERIODIC", p.border == LpvBorder::periodic},
-                  {"CROSS", step == 0 && p.bands == 3},
-                  {"LAST", last},
-                  {"LANES", lanes},
-                  {"APART", apart}},
+                  {"APART", apart},
+                  {"LANES", lanes}},
                  slots);
     const double read = step == 0 ? coefficients(p) : carried(p);
     const double faces = p.bands == 3 ? 31 : 17;
