@@ -17,7 +17,7 @@
     _(int, geometry_plane) \
     _(int, channels) \
     _(int, across)         /* 1: band 2 has parts across axes: injected light, not light that came through faces */ \
-    _(int, last)           /* 1: nothing travels on */
+    _(int, last)           /* 1: nothing travels on; 2: dst is an output: the lobes as they came */
 #define CONSTANTS(_) \
     _(0, int, LOBES, 0)     /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
     _(1, int, PERIODIC, 0)  /* 1: beyond the grid is its opposite side */ \
