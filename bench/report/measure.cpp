@@ -9,6 +9,7 @@
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
+#include "bench/report/propagation.h"
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
@@ -20,6 +21,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
+#include "tests/cases/light_propagation_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
@@ -94,6 +96,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, screen_left_out(session));
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
+  }
+  if (settings.wants("light_propagation")) {
+    append(jobs, propagation_grid(session));
+    append(jobs, propagation_left_out(session));
+    append(jobs, propagation_reproduction(session));
+    append(jobs, propagation_peers(session));
+    append(jobs, stability_jobs(session, cases::light_propagation_cases()));
   }
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())
