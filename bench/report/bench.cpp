@@ -175,11 +175,15 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   if (wanted.wants("hiz_ssr"))
     for (const BenchSetting& setting : hiz_ssr_settings(context->profile()))
       line("hiz_ssr " + setting.name, setting);
-  if (wanted.wants("octahedral_march"))
+  if (wanted.wants("octahedral_march")) {
     for (const BenchSetting& setting : octahedral_march_settings(context->profile()))
       line("octahedral_march " + setting.name, setting);
     for (const BenchSetting& setting : probe_shade_settings(context->profile()))
       line("octahedral_march " + setting.name, setting);
+  }
+  if (wanted.wants("light_propagation"))
+    for (const BenchSetting& setting : light_propagation_settings(context->profile()))
+      line("light_propagation " + setting.name, setting);
   fmt::print("\n");
   return status;
 }

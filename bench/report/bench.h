@@ -50,6 +50,9 @@ std::vector<BenchSetting> octahedral_march_settings(const Profile& profile);
 /// Main settings of probe_irradiance and probe_shade: 256 probes, 32,768 receivers.
 std::vector<BenchSetting> probe_shade_settings(const Profile& profile);
 
+/// Main settings of lpv_propagate: 8 steps in 32^3 and 64^3.
+std::vector<BenchSetting> light_propagation_settings(const Profile& profile);
+
 /// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
                  const std::vector<std::pair<int, int>>& sizes);

@@ -10,6 +10,7 @@
 #include "bench/report/limits.h"
 #include "bench/report/mips.h"
 #include "bench/report/octree.h"
+#include "bench/report/propagation.h"
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
@@ -23,6 +24,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
+#include "tests/cases/light_propagation_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/octahedral_march_cases.h"
 #include "tests/cases/probe_cases.h"
@@ -112,6 +114,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, probe_light_reproduction(session));
     append(jobs, probe_light_peers(session));
     append(jobs, stability_jobs(session, cases::probe_cases()));
+  }
+  if (settings.wants("light_propagation")) {
+    append(jobs, propagation_grid(session));
+    append(jobs, propagation_left_out(session));
+    append(jobs, propagation_reproduction(session));
+    append(jobs, propagation_peers(session));
+    append(jobs, stability_jobs(session, cases::light_propagation_cases()));
   }
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);

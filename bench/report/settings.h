@@ -24,7 +24,7 @@ struct Settings {
 inline const std::vector<std::string>& measured_kernels() {
   static const std::vector<std::string> names{"gaussian_blur", "bilateral",  "mip_build",
                                               "voxelize",      "cone_trace", "hiz_ssr",
-                                              "octahedral_march"};
+                                              "octahedral_march", "light_propagation"};
   return names;
 }
 
