@@ -1,0 +1,24 @@
+// From a plane for each coefficient back to pixels of four. Light that came through faces has nothing in c4, c5, c7: there
+// the result holds what was injected.
+FN float summed(CTX, int to, int i, float across) {
+    if (i > 8) return 0.0f;
+    if (i == 4 || i == 5 || i == 7) return params.keep != 0 ? across : 0.0f;
+    return load(sum, to + i * params.plane);
+}
+
+KERNEL(lpv_finish) {
+    const int x = invocation_x();
+    const int y = invocation_y();
+    const int z = invocation_z();
+    if (x >= params.width || y >= params.height || z >= params.channels * QUADS * params.depth) return;
+    const int channel = z / (QUADS * params.depth);
+    const int i = 4 * (z / params.depth % QUADS);
+    const int to = 3 * params.pitch + channel * (QUADS == 1 ? 4 : 9) * params.plane + z % params.depth * params.slice +
+                   y * params.pitch + x;
+    const ivec3 extent = ivec3(params.width, params.height, params.depth);
+    vec4 across = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    if (i == 4 && params.keep != 0) across = load_voxel(injected, extent, ivec3(x, y, z));
+    store_voxel(result, extent, ivec3(x, y, z),
+                vec4(summed(ctx, to, i, across.x), summed(ctx, to, i + 1, across.y), summed(ctx, to, i + 2, across.z),
+                     summed(ctx, to, i + 3, across.w)));
+}

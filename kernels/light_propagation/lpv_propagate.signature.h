@@ -1,0 +1,37 @@
+/* BUILD
+   math: lobe
+   module bands2: CHANNELS=1 LOBE=wide WIDE=1 BANDS=2 BLOCKED=0
+   module bands2_geometry: CHANNELS=1 LOBE=wide WIDE=1 BANDS=2 BLOCKED=1
+   module bands3: CHANNELS=1 LOBE=wide WIDE=1 BANDS=3 BLOCKED=0
+   module bands3_geometry: CHANNELS=1 LOBE=wide WIDE=1 BANDS=3 BLOCKED=1
+*/
+#define PARAMETERS(_) \
+    _(int, width)          /* cells along x, y, z */ \
+    _(int, height) \
+    _(int, depth) \
+    _(int, pitch)          /* values from row to row, slice to slice, plane to plane */ \
+    _(int, slice) \
+    _(int, plane) \
+    _(int, geometry_pitch) /* the same of `geometry` */ \
+    _(int, geometry_slice) \
+    _(int, geometry_plane) \
+    _(int, channels)
+#define CONSTANTS(_) \
+    _(0, int, LOBES, 0)     /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
+    _(1, int, PERIODIC, 0)  /* 1: beyond the grid is its opposite side */ \
+    _(2, int, CROSS, 0)     /* 1: band 2 has parts across axes: injected light, not light that came through faces */ \
+    _(3, int, LAST, 0)      /* 1: nothing travels on */
+#define SHAPE(_) \
+    _(8, int, LANES, 16) \
+    _(9, int, APART, 0)  /* 1: an invocation makes one channel, which streams less at a time; 0: all */
+#if BLOCKED
+#define GEOMETRY(_) _(READ, 4, f32x1, geometry)
+#else
+#define GEOMETRY(_)
+#endif
+#define BINDINGS(_) \
+    _(READ, 0, f32x1, src)  /* light that travels: lpv_start */ \
+    _(WRITE, 1, f32x1, dst) \
+    _(READ, 2, f32x1, sum)  /* of the steps so far */ \
+    _(WRITE, 3, f32x1, total) \
+    GEOMETRY(_)

@@ -1,0 +1,60 @@
+// From pixels of four coefficients to a plane for each, so that neighbouring cells are neighbours in memory; with what the
+// lobes' form asks for. Before the planes lie three rows: nothing, and for each cell of a row whether it has a neighbour to
+// the left and to the right.
+#if BANDS == 3
+#define COEFFICIENTS 9
+#define QUADS 3
+#else
+#define COEFFICIENTS 4
+#define QUADS 1
+#endif
+
+KERNEL(lpv_start) {
+    const int x = invocation_x();
+    const int y = invocation_y();
+    const int z = invocation_z() % params.depth;
+    const int channel = invocation_z() / params.depth;
+    if (x >= params.pitch || y >= params.height || channel >= params.channels) return;
+    if (y == 0 && z == 0 && channel == 0) {
+        const float left = x > 0 ? 1.0f : 0.0f;
+        const float right = x + 1 < params.width ? 1.0f : 0.0f;
+        store(travelling, x, 0.0f);
+        store(travelling, params.pitch + x, left);
+        store(travelling, 2 * params.pitch + x, right);
+        store(other, x, 0.0f);
+        store(other, params.pitch + x, left);
+        store(other, 2 * params.pitch + x, right);
+    }
+
+    float c[12];
+    UNROLL for (int q = 0; q < QUADS; ++q) {
+        vec4 v = vec4(0.0f, 0.0f, 0.0f, 0.0f);
+        const ivec3 extent = ivec3(params.width, params.height, params.depth);
+        if (x < params.width) v = load_voxel(injected, extent, ivec3(x, y, (channel * QUADS + q) * params.depth + z));
+        c[4 * q] = v.x;
+        c[4 * q + 1] = v.y;
+        c[4 * q + 2] = v.z;
+        c[4 * q + 3] = v.w;
+    }
+    const int plane = params.plane;
+    const int to = 3 * params.pitch + channel * COEFFICIENTS * plane + z * params.slice + y * params.pitch + x;
+    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) store(sum, to + i * plane, params.keep != 0 ? c[i] : 0.0f);
+    if (LOBES == 2) {
+        float two = 0.0f;
+#if BANDS == 3
+        two = (c[4] * c[4] + c[5] * c[5]) + (c[6] * c[6] + c[7] * c[7]) + c[8] * c[8];
+#endif
+        const float keep = lobe_shrink(c[0], c[3] * c[3] + c[1] * c[1] + c[2] * c[2], two);
+        UNROLL for (int i = 1; i < COEFFICIENTS; ++i) c[i] = keep * c[i];
+    }
+    if (LOBES == 3) {
+#if BANDS == 3
+        const float scale = lobe_rescale(c[0], c[3], c[1], c[2], lobe_square(0, c[6], c[8]), lobe_square(1, c[6], c[8]),
+                                         lobe_square(2, c[6], c[8]), c[4], c[5], c[7]);
+#else
+        const float scale = lobe_rescale(c[0], c[3], c[1], c[2], 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+#endif
+        UNROLL for (int i = 0; i < COEFFICIENTS; ++i) c[i] = scale * c[i];
+    }
+    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) store(travelling, to + i * plane, c[i]);
+}
