@@ -20,6 +20,7 @@ using glm::dvec3;
 constexpr RenderMethod methods[] = {
     {"cone", "voxel cone tracing on a device", render_cone},
     {"ssr", "the same, with reflections found on the screen before the cones'", render_ssr},
+    {"probe", "octahedral probes on a grid, filtered visibility", render_probe},
     {"truth", "path tracing on the CPU, two independent halves", render_truth},
 };
 
@@ -36,6 +37,9 @@ struct Arguments {
   int samples = 64, bounces = 0, resolution = 128, cone_count = 6;
   double aperture = 0, step = 0.5, offset = 1;
   bool anisotropic = false, thin = false, both_sides = false;
+  std::string probes = "8";
+  int probe_size = 32, irradiance_size = 8, distance_size = 16, probe_bounces = 3;
+  bool unfiltered = false;
 };
 
 // Numbers between commas. Empty unless there are `count` and all are finite.
@@ -64,6 +68,22 @@ Status set_camera(const std::string& text, scene::Camera& camera) {
   camera = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
   if (camera.eye == camera.target) return wrong("camera", text, "an eye away from its target");
   if (!(camera.fov > 0 && camera.fov < 180)) return wrong("camera", text, "a field above 0 and below 180 degrees");
+  return {};
+}
+
+// "8": along the longest side, cells about cubes; "8,4,6": along each axis.
+Status set_probes(const std::string& text, const scene::Scene& scene, std::array<int, 3>& count) {
+  auto v = numbers(text, 3);
+  if (v.empty()) v = numbers(text, 1);
+  for (const double n : v)
+    if (!(n >= 1 && n <= 64 && n == std::floor(n))) v.clear();
+  if (v.empty()) return wrong("probes", text, "N or nx,ny,nz, each a whole number 1..64, 65535 probes at most");
+  if (v.size() == 1) {
+    count = scene::probe_cubes(scene, static_cast<int>(v[0]));
+  } else {
+    for (std::size_t k = 0; k < 3; ++k) count[k] = static_cast<int>(v[k]);
+  }
+  if (count[0] * count[1] * count[2] > 65535) return wrong("probes", text, "65535 probes at most");
   return {};
 }
 
@@ -212,7 +232,13 @@ int run(const Arguments& a) {
   screen.reuse = a.reuse;
   // Most surfaces stand in front of others: what is thicker hides too much, what is thinner lets rays through.
   screen.thickness = a.thickness > 0 ? a.thickness : glm::length(box.high - box.low) / 64;
-  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones, screen});
+  scene::ProbeSceneSettings probes;
+  if (Status s = set_probes(a.probes, scene, probes.count); !s) return complain(s);
+  probes.size = a.probe_size;
+  probes.bounces = a.probe_bounces;
+  probes.filter.irradiance_size = a.irradiance_size;
+  probes.filter.moments_size = a.unfiltered ? 0 : a.distance_size;
+  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones, screen, probes, probes.bounce});
   if (!rendered) return complain(rendered.status());
   RenderOutput& output = rendered.value();
   clock.ms();
@@ -347,6 +373,21 @@ void add_render(CLI::App& app, int& exit_status) {
   command->add_option("--thickness", a->thickness, "of ssr: of surfaces, scene units, 0..1e9; default 0: 1/64 of the scene's diagonal")
       ->type_name("NUMBER")
       ->check(within(0, 1e9, false));
+  command->add_option("--probes", a->probes, "of probe: along the longest side, or along each axis, 1..64 each; default 8")
+      ->type_name("N|nx,ny,nz");
+  command->add_option("--probe-size", a->probe_size, "of probe: texels along each side of what a probe sees, even, 16..1024; default 32")
+      ->type_name("N")
+      ->check(within(16, 1024, true));
+  command->add_option("--irradiance-size", a->irradiance_size, "of probe: texels along each side of a map of irradiance, 4..128; default 8")
+      ->type_name("N")
+      ->check(within(4, 128, true));
+  command->add_option("--distance-size", a->distance_size, "of probe: texels along each side of a map of distances, 4..128; default 16")
+      ->type_name("N")
+      ->check(within(4, 128, true));
+  command->add_option("--probe-bounces", a->probe_bounces, "of probe: diffuse bounces, 1..16; default 3")
+      ->type_name("N")
+      ->check(within(1, 16, true));
+  command->add_flag("--unfiltered", a->unfiltered, "of probe: trilinear alone, without visibility");
   add_device_option(*command, a->device);
   command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });

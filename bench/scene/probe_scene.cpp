@@ -18,6 +18,8 @@ using glm::dvec3;
     if (Status s_ = (status); !s_) return s_; \
   } while (false)
 
+constexpr int lamp_pieces = 64;  // as VoxelSceneSettings has them
+
 class Watch {
  public:
   double ms() const { return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count(); }
@@ -95,6 +97,12 @@ Status ProbeScene::cast() {
   if (settings_.find_dead) find_dead_probes(probes_, *rays_);
   build_steps_.push_back({"probes placed", placing.ms()});
   sky_ = !scene.sky.dark();
+  std::size_t emitting = 0;
+  for (std::size_t i = 0; i < scene.indices.size(); ++i) emitting += scene.material_of(i).emission != dvec3(0) && finite(scene, i);
+  lamps_ = emitting > 0 && !sky_ && emitting <= lamp_pieces;
+  seen_directly_ = sky_ || emitting > 0;
+  lights_ = voxel_lights_of(scene, lamps_ ? lamp_pieces : 1);
+  if (!lamps_) std::erase_if(lights_, [](const VoxelLight& l) { return l.kind == VoxelLight::Kind::patch; });
   filter_ = settings_.filter;
   filter_.grid = probes_.grid;
   filter_.maps = {settings_.size, 1, ProbeRadiance::f16x4, ProbeDistance::f32, ProbeNormal::none};
@@ -170,11 +178,11 @@ Status ProbeScene::light() {
       if (i % 4 < 3) radiance[i] += albedo_[i / 4 * 3 + i % 4] / std::numbers::pi * static_cast<double>(lit.value()[i]);
     TRY(gather(radiance, "irradiance", false));
   }
-  if (!sky_) return {};
-  ProbeLight above;
-  above.reflected = false;
-  above.sky = true;
-  return gather(cast_probes(probes_, *rays_, settings_.size, &above).radiance, "sky_irradiance", false);
+  if (!seen_directly_) return {};
+  ProbeLight own;
+  own.reflected = false;
+  own.emitted = own.sky = true;
+  return gather(cast_probes(probes_, *rays_, settings_.size, &own).radiance, "direct_irradiance", false);
 }
 
 ProbeShadeParams ProbeScene::shade_params(const ProbeShadeParams& knobs, std::size_t receivers) const {
@@ -200,7 +208,7 @@ Result<std::vector<float>> ProbeScene::lit_by(const std::string& maps, const Pro
   return lit;
 }
 
-Result<ProbeLit> ProbeScene::shade(const ProbeShadeParams& knobs, const std::vector<float>& receivers) {
+Result<ProbeLit> ProbeScene::shade(const ProbeShadeParams& knobs, const std::vector<float>& receivers, bool direct) {
   shade_steps_.clear();
   ProbeShadeParams p = shade_params(knobs, receivers.size() / 8);
   ProbeLit out;
@@ -219,11 +227,11 @@ Result<ProbeLit> ProbeScene::shade(const ProbeShadeParams& knobs, const std::vec
     out.counters[0] -= spare;
     out.counters[1] -= spare;
   }
-  if (sky_) {
+  if (seen_directly_ && direct) {
     p.count = false;
-    auto above = lit_by("sky_irradiance", p, receivers, "probe_shade of the sky", shade_steps_);
-    if (!above) return above.status();
-    out.direct = std::move(above).value();
+    auto own = lit_by("direct_irradiance", p, receivers, "probe_shade of direct light", shade_steps_);
+    if (!own) return own.status();
+    out.direct = std::move(own).value();
   }
   return out;
 }

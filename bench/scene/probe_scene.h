@@ -29,7 +29,7 @@ std::array<int, 3> probe_cubes(const Scene& scene, int longest);
 /// Irradiance at points, 4 a receiver; the fourth: share of the probes' weight that sees it.
 struct ProbeLit {
   std::vector<float> indirect;  // from surfaces that reflect light
-  std::vector<float> direct;    // from the sky; empty where there is none
+  std::vector<float> direct;    // from the sky and from what emits, seen directly; empty where there is neither
   std::vector<std::uint32_t> counters;  // as ProbeShadeOutcome names them, of `indirect`
 };
 
@@ -46,10 +46,14 @@ class ProbeScene {
   static Result<ProbeScene> build(std::shared_ptr<Context> context, const Rays& rays, const ProbeSceneSettings& settings);
   /// Light of sun, lamps and sky on what the probes see, and the maps that receivers look up.
   Status light();
-  /// `knobs`: visibility, facing, biases and so on. Receivers: 8 floats each.
-  Result<ProbeLit> shade(const ProbeShadeParams& knobs, const std::vector<float>& receivers);
+  /// `knobs`: visibility, facing, biases and so on. Receivers: 8 floats each. `direct`: whether it is wanted.
+  Result<ProbeLit> shade(const ProbeShadeParams& knobs, const std::vector<float>& receivers, bool direct = false);
 
   const Probes& probes() const { return probes_; }
+  /// The sun, and the emitters where they are lamps (few, and no sky shines): the lights that shadow rays reach. Of all others
+  /// `direct` has the light.
+  const std::vector<VoxelLight>& lights() const { return lights_; }
+  bool lamps() const { return lamps_; }
   std::size_t dead() const;
   std::size_t memory_bytes() const;  // of all buffers on the device, receivers left out
   const std::vector<ProbeStep>& build_steps() const { return build_steps_; }
@@ -79,7 +83,8 @@ class ProbeScene {
   ProbeIrradianceParams filter_;
   std::vector<double> distance_, albedo_;  // of texels; 3 a texel
   std::vector<float> seen_;                // what the texels see, as receivers
-  bool sky_ = false;
+  bool sky_ = false, seen_directly_ = false, lamps_ = false;
+  std::vector<VoxelLight> lights_;
   struct Held {
     std::shared_ptr<Memory> memory;
     std::size_t bytes = 0;
