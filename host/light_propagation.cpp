@@ -88,7 +88,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   out.written = true;
   const Slot injected = planner.resource(in);
   Slot geometry, blocking;
-  const bool blocked = p.geometry && p.iterations > 1;
+  const bool blocked = p.geometry && (p.iterations > 1 || p.continued);
   if (p.geometry) {
     Resource g{"geometry"};
     g.format = p.geometry_format;
@@ -96,6 +96,11 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
     geometry = planner.resource(g);
   }
   const Slot result = planner.resource(out);
+  Slot travelling;
+  if (p.travelling) {
+    out.name = "travelling";
+    travelling = planner.resource(out);
+  }
   const Strides s(e[0], e[1], e[2]), g(e[0] + 1 + lane_limit, e[1] + 1, e[2] + 1);
   const std::size_t values = plane_values(p, s);
   const std::array<Slot, 2> light{planner.scratch(Format::f32x1, values), planner.scratch(Format::f32x1, values)};
@@ -127,7 +132,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                 : profile.voxels.workgroup;
   for (int step = 0; step < p.iterations; ++step) {
     const std::size_t from = static_cast<std::size_t>(step % 2), to = 1 - from;
-    const bool blocks = step > 0 && p.geometry;
+    const bool blocks = p.geometry && (step > 0 || p.continued);
     const bool apart = lanes > 1 && !blocks;
     const bool last = step + 1 == p.iterations;
     std::vector<std::pair<std::string_view, Slot>> slots = {
@@ -139,26 +144,30 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                      Planner::Values{{"geometry_pitch", g.pitch},
                                      {"geometry_slice", g.slice},
                                      {"geometry_plane", g.plane},
-                                     {"channels", p.channels}},
+                                     {"channels", p.channels},
+                                     {"across", step == 0 && p.bands == 3},
+                                     {"last", !last ? 0 : p.travelling ? 2 : 1}},
                  {{"LOBES", static_cast<int>(p.lobes)},
                   {"PERIODIC", p.border == LpvBorder::periodic},
-                  {"CROSS", step == 0 && p.bands == 3},
-                  {"LAST", last},
-                  {"LANES", lanes},
-                  {"APART", apart}},
+                  {"APART", apart},
+                  {"LANES", lanes}},
                  slots);
     const double read = step == 0 ? coefficients(p) : carried(p);
     const double faces = p.bands == 3 ? 31 : 17;
     const double lobes = p.lobes == LpvLobes::clamp ? 30 : p.lobes == LpvLobes::shrink ? 14 : p.lobes == LpvLobes::rescale ? 150 : 0;
     planner.cost(n * (6 * faces + 2 * carried(p) + 10 + lobes + (blocks ? 30 : 0)) + (blocks ? n / p.channels * 220 : 0),
-                 n * 4 * (read + (last ? 2.0 : 3.0) * carried(p)) + (blocks ? 16.0 * n / p.channels : 0));
+                 n * 4 * (read + (last && !p.travelling ? 2.0 : 3.0) * carried(p)) + (blocks ? 16.0 * n / p.channels : 0));
   }
 
   const std::size_t at = static_cast<std::size_t>(p.iterations % 2);
-  planner.pass("lpv_finish", name(p.format), "light_propagation finish", cells(e[0], e[1], e[2] * p.channels * quads),
-               profile.voxels.workgroup, extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}},
-               {{"QUADS", quads}}, {{"injected", injected}, {"sum", sum[at]}, {"result", result}});
-  planner.cost(0, n * (4.0 * carried(p) + stored));
+  const auto finish = [&](Slot from, Slot to, bool keep) {
+    planner.pass("lpv_finish", name(p.format), "light_propagation finish", cells(e[0], e[1], e[2] * p.channels * quads),
+                 profile.voxels.workgroup, extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", keep}},
+                 {{"QUADS", quads}}, {{"injected", injected}, {"sum", from}, {"result", to}});
+    planner.cost(0, n * (4.0 * carried(p) + stored));
+  };
+  finish(sum[at], result, p.keep_injected);
+  if (p.travelling) finish(light[at], travelling, false);
   return std::move(planner).finish();
 }
 

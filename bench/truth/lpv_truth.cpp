@@ -152,7 +152,7 @@ std::vector<double> lpv_propagated(const LpvPropagateParams& p, std::span<const 
   if (p.keep_injected) sum = light;
   for (int step = 0; step < p.iterations; ++step) {
     LpvStep next = lpv_step(p.grid, p.bands, p.lobes, p.border, light,
-                            step > 0 && p.geometry ? geometry : std::span<const double>());
+                            p.geometry && (step > 0 || p.continued) ? geometry : std::span<const double>());
     if (ledgers) ledgers->push_back(next.ledger);
     light = std::move(next.light);
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light[i];

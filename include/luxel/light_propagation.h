@@ -58,12 +58,15 @@ struct LpvPropagateParams {
   LpvLobes lobes = LpvLobes::linear;
   LpvBorder border = LpvBorder::open;
   bool geometry = false;                  // a geometry volume blocks, from the second step on
+  bool continued = false;                 // injected has travelled already: the first step is blocked too
   Format geometry_format = Format::f32x4; // f32x4 or f16x4
   bool keep_injected = true;              // result holds the injected light as well as that of every step
+  bool travelling = false;                // adds `travelling`: the light after the last step, to go on from
 };
 
 /// Resources: `injected` (read), `geometry` (read; with geometry), `result` (written): the sum over steps of the light that
-/// travels. Scratch: Plan::scratch_bytes.
+/// travels; `travelling` (written; where asked for). Scratch: Plan::scratch_bytes; lpv_propagate needs nothing cleared.
+/// A coefficient that is not finite spreads by one ring of cells a step and no further.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const LpvPropagateParams& params);
 Result<Plan> plan(const LpvPropagateParams& params, const Profile& profile);

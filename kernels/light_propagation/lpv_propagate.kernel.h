@@ -113,9 +113,9 @@ KERNEL(lpv_propagate) {
             const wide c8 = tap(ctx, at + 8, x, y, z, axis, step);
             const wide square = lobe_square(axis, c6, c8);
             front = front + LOBE_FRONT * square;
-            base_t = base_t + ((LOBE_SIDE * 0.8f) * square + (LOBE_SIDE * 0.2f) * lobe_square(t, c6, c8));
-            base_u = base_u + ((LOBE_SIDE * 0.8f) * square + (LOBE_SIDE * 0.2f) * lobe_square(u, c6, c8));
-            if (CROSS != 0) {
+            base_t = base_t + (LOBE_SIDE_SQUARE * square + LOBE_SIDE_OTHER * lobe_square(t, c6, c8));
+            base_u = base_u + (LOBE_SIDE_SQUARE * square + LOBE_SIDE_OTHER * lobe_square(u, c6, c8));
+            if (params.across != 0) {
                 to_t = to_t + (way * LOBE_SIDE_CROSS) * tap(ctx, at + lobe_across(axis, t), x, y, z, axis, step);
                 to_u = to_u + (way * LOBE_SIDE_CROSS) * tap(ctx, at + lobe_across(axis, u), x, y, z, axis, step);
             }
@@ -165,20 +165,19 @@ KERNEL(lpv_propagate) {
             if (i != 4 && i != 5 && i != 7)
                 store_wide(total, 0, to, 0, load_wide(sum, 0, to, 0) + made[i]);
         }
-        if (LAST == 0) {
-            if (LOBES == 2) {
-                const wide one = made[3] * made[3] + made[1] * made[1] + made[2] * made[2];
-                const wide keep = lobe_shrink(made[0], one, made[6] * made[6] + made[8] * made[8]);
-                UNROLL for (int i = 1; i < COEFFICIENTS; ++i) made[i] = keep * made[i];
-            }
-            if (LOBES == 3) {
-                const wide scale = lobe_rescale(made[0], made[3], made[1], made[2], lobe_square(0, made[6], made[8]),
-                                                lobe_square(1, made[6], made[8]), lobe_square(2, made[6], made[8]),
-                                                made[4], made[5], made[7]);
-                UNROLL for (int i = 0; i < COEFFICIENTS; ++i) made[i] = scale * made[i];
-            }
-            UNROLL for (int i = 0; i < COEFFICIENTS; ++i)
-                if (i != 4 && i != 5 && i != 7) store_wide(dst, 0, row_of(ctx, channel * COEFFICIENTS + i, y, z) + x, 0, made[i]);
+        if (params.last == 1) continue;
+        if (LOBES == 2 && params.last == 0) {
+            const wide one = made[3] * made[3] + made[1] * made[1] + made[2] * made[2];
+            const wide keep = lobe_shrink(made[0], one, made[6] * made[6] + made[8] * made[8]);
+            UNROLL for (int i = 1; i < COEFFICIENTS; ++i) made[i] = keep * made[i];
         }
+        if (LOBES == 3 && params.last == 0) {
+            const wide scale = lobe_rescale(made[0], made[3], made[1], made[2], lobe_square(0, made[6], made[8]),
+                                            lobe_square(1, made[6], made[8]), lobe_square(2, made[6], made[8]),
+                                            made[4], made[5], made[7]);
+            UNROLL for (int i = 0; i < COEFFICIENTS; ++i) made[i] = scale * made[i];
+        }
+        UNROLL for (int i = 0; i < COEFFICIENTS; ++i)
+            if (i != 4 && i != 5 && i != 7) store_wide(dst, 0, row_of(ctx, channel * COEFFICIENTS + i, y, z) + x, 0, made[i]);
     }
 }

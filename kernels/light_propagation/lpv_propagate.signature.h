@@ -15,15 +15,15 @@
     _(int, geometry_pitch) /* the same of `geometry` */ \
     _(int, geometry_slice) \
     _(int, geometry_plane) \
-    _(int, channels)
+    _(int, channels) \
+    _(int, across)         /* 1: band 2 has parts across axes: injected light, not light that came through faces */ \
+    _(int, last)           /* 1: nothing travels on; 2: dst is an output: the lobes as they came */
 #define CONSTANTS(_) \
     _(0, int, LOBES, 0)     /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
     _(1, int, PERIODIC, 0)  /* 1: beyond the grid is its opposite side */ \
-    _(2, int, CROSS, 0)     /* 1: band 2 has parts across axes: injected light, not light that came through faces */ \
-    _(3, int, LAST, 0)      /* 1: nothing travels on */
+    _(2, int, APART, 0)     /* 1: an invocation makes one channel, which streams less at a time; 0: all */
 #define SHAPE(_) \
-    _(8, int, LANES, 16) \
-    _(9, int, APART, 0)  /* 1: an invocation makes one channel, which streams less at a time; 0: all */
+    _(8, int, LANES, 16)
 #if BLOCKED
 #define GEOMETRY(_) _(READ, 4, f32x1, geometry)
 #else

@@ -6,12 +6,15 @@
 // each of its four sides 0.4234314 sr, 2 pi / 3 together; they are met along (1, 0, 0) and (2, 1, 0) / sqrt(5). Fluxes are
 // counted in units of Y0 2 pi / 3, so that those of c0 weigh LOBE_FRONT + 4 LOBE_SIDE = 1, exactly in f32 too: then a step
 // keeps the flux whatever the number of steps. sqrt(3) = Y1 / Y0 turns band 1 into that unit.
-#define LOBE_SIDE 0.2021735793561101f
-#define LOBE_FRONT (1.0f - 4.0f * LOBE_SIDE)
-#define LOBE_FRONT_ALONG 0.33135116199751324f  // LOBE_FRONT sqrt(3)
-#define LOBE_SIDE_ALONG 0.3132059623557432f     // LOBE_SIDE sqrt(3) 2 / sqrt(5)
-#define LOBE_SIDE_ACROSS 0.1566029811778716f        // LOBE_SIDE sqrt(3) / sqrt(5)
-#define LOBE_SIDE_CROSS 0.3132059623557432f         // LOBE_SIDE sqrt(15) 2 / 5
+// Digits of f32, in double too (compilers fold constants in double): the solid angles are right to 8e-8.
+#define LOBE_SIDE 0.20217357575893402f
+#define LOBE_FRONT 0.19130569696426392f
+#define LOBE_FRONT_ALONG 0.33135118691948023f  // LOBE_FRONT sqrt(3)
+#define LOBE_SIDE_ALONG 0.31320595678302193f    // LOBE_SIDE sqrt(3) 2 / sqrt(5)
+#define LOBE_SIDE_ACROSS 0.15660297839151097f  // LOBE_SIDE sqrt(3) / sqrt(5)
+#define LOBE_SIDE_CROSS 0.313205956783022f    // LOBE_SIDE sqrt(15) 2 / 5
+#define LOBE_SIDE_SQUARE 0.16173886060714723f   // LOBE_SIDE 4 / 5: the square of the direction's part along the axis
+#define LOBE_SIDE_OTHER 0.04043471515178681f    // LOBE_SIDE / 5
 
 #if WIDE && !defined(OCL_JOIN)
 #define lobe_splat(s) wide_splat(s)
@@ -80,9 +83,9 @@ FN LOBE lobe_shrink(LOBE c0, LOBE one, LOBE two) {
 // square: lobe_square; cross: the function of band 2 across the axis and the other.
 FN LOBE lobe_sent(LOBE c0, LOBE along, LOBE y, LOBE z, LOBE square, LOBE square_y, LOBE square_z, LOBE cross_y, LOBE cross_z) {
     const LOBE front = LOBE_FRONT * (c0 + square);
-    const LOBE middle = LOBE_SIDE * (c0 + 0.8f * square);
-    const LOBE base_y = middle + (LOBE_SIDE * 0.2f) * square_y;
-    const LOBE base_z = middle + (LOBE_SIDE * 0.2f) * square_z;
+    const LOBE middle = LOBE_SIDE * c0 + LOBE_SIDE_SQUARE * square;
+    const LOBE base_y = middle + LOBE_SIDE_OTHER * square_y;
+    const LOBE base_z = middle + LOBE_SIDE_OTHER * square_z;
     const LOBE ahead = LOBE_SIDE_ALONG * along;
     const LOBE to_y = LOBE_SIDE_ACROSS * y;
     const LOBE to_z = LOBE_SIDE_ACROSS * z;
