@@ -47,7 +47,7 @@ struct Arguments {
 };
 
 constexpr const char* lobe_names[] = {"linear", "clamp", "shrink", "rescale"};
-constexpr const char* blocker_names[] = {"none", "surfaces", "maps"};
+constexpr const char* blocker_names[] = {"none", "surfaces", "empty", "maps"};
 
 // Numbers between commas. Empty unless there are `count` and all are finite.
 std::vector<double> numbers(std::string_view text, std::size_t count) {

@@ -33,7 +33,7 @@ std::vector<dvec3> all_direct(const RenderInput& input) {
 }
 
 const char* name_of(scene::LpvBlockers blockers) {
-  return blockers == scene::LpvBlockers::none ? "nothing" : blockers == scene::LpvBlockers::surfaces ? "all surfaces" : "what maps and camera see";
+  return blockers == scene::LpvBlockers::none || blockers == scene::LpvBlockers::empty ? "nothing" : blockers == scene::LpvBlockers::surfaces ? "all surfaces" : "what maps and camera see";
 }
 
 }  // namespace

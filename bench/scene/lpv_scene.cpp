@@ -76,14 +76,14 @@ Result<LpvScene> LpvScene::build(std::shared_ptr<Context> context, const Rays& r
   LpvScene made(std::move(context), rays, settings);
   made.place();
   made.geometry_.resize(made.grids_.size());
-  if (settings.blockers != LpvBlockers::surfaces) return made;
+  if (settings.blockers == LpvBlockers::none || settings.blockers == LpvBlockers::maps) return made;
   // Static surfaces, once: four pieces and more in a cell's face of the finest grid.
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<VirtualLight> pieces =
-      surface_pieces(rays.scene(), std::max(made.grids_[0].cell * made.grids_[0].cell / 4, 1e-30));
+  if (settings.blockers == LpvBlockers::surfaces)
+    made.pieces_ = surface_pieces(rays.scene(), std::max(made.grids_[0].cell * made.grids_[0].cell / 4, 1e-30));
   made.build_steps_.push_back({"pieces", since(start)});
   for (std::size_t k = 0; k < made.grids_.size(); ++k)
-    if (Status s = made.block(k, pieces, {}, made.build_steps_); !s) return s;
+    if (Status s = made.block(k, made.pieces_, {}, made.build_steps_); !s) return s;
   return made;
 }
 
@@ -158,6 +158,8 @@ Status LpvScene::light(const LpvSampleParams& knobs, const std::vector<float>& r
   run_ = receivers.empty() ? std::vector<bool>(grids_.size(), true) : lpv_cascades_read(shape, receivers);
   for (std::size_t k = 0; k < grids_.size(); ++k) {
     if (!run_[k]) continue;
+    if (settings_.moving && settings_.blockers == LpvBlockers::surfaces)
+      if (Status s = block(k, pieces_, {}, light_steps_); !s) return s;
     if (settings_.blockers == LpvBlockers::maps)
       if (Status s = block(k, lights_, settings_.seen, light_steps_); !s) return s;
     if (Status s = fill(k, held.value(), flux_max); !s) return s;

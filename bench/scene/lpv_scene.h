@@ -18,6 +18,7 @@ namespace luxel::scene {
 enum class LpvBlockers {
   none,      // nothing: no geometry volume is made
   surfaces,  // every triangle's front
+  empty,     // nothing either, with a geometry volume that holds 0
   maps       // what the lights' maps see, beside what the camera sees (`seen`), as an engine without its meshes has it
 };
 
@@ -31,6 +32,7 @@ struct LpvSceneSettings {
   LpvLobes lobes = LpvLobes::linear;
   bool keep_injected = true;
   LpvBlockers blockers = LpvBlockers::surfaces;
+  bool moving = false;            // surfaces are injected again with every change of light
   bool two_sided = false;         // surfaces block from both sides
   std::vector<VirtualLight> seen; // of the maps: more surfaces, the G-buffer's
   bool find_grey = true;          // lights without colour are injected and propagated as one channel
@@ -91,7 +93,7 @@ class LpvScene {
   LpvSceneSettings settings_;
   glm::dvec3 origin_{0};
   std::vector<LpvGrid> grids_;    // from origin_
-  std::vector<VirtualLight> lights_;
+  std::vector<VirtualLight> lights_, pieces_;
   int channels_ = 3;
   std::vector<bool> run_;
   std::shared_ptr<Memory> light_;                   // all cascades

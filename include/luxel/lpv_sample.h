@@ -11,7 +11,7 @@ struct LpvSampleParams {
   int bands = 2;                  // 2 or 3
   int channels = 3;               // 3, or 1: grey
   Format format = Format::f32x4;  // of the volumes: f32x4 or f16x4
-  double offset = 0;              // look-ups are so many cells above the surface, -4..4
+  double offset = 0.5;            // look-ups are so many cells above the surface, -4..4: where lights were moved to
   double damping = 0;             // 0..1: how much of the light is dropped where it grows, along the normal, from behind the surface
   double blend = 2;               // cells over which a cascade gives way to the next at its sides, 0.125..extent / 2
   double gain = 1;                // the result is multiplied by it, > 0

@@ -22,6 +22,7 @@ LpvSampleParams params_of(const LpvGrid& grid, int bands = 2) {
   LpvSampleParams p;
   p.grids = {grid};
   p.bands = bands;
+  p.offset = 0;
   return p;
 }
 
@@ -164,6 +165,7 @@ void add_cascades(std::vector<Case>& cases) {
   const auto three = [] {
     LpvSampleParams p;
     p.grids = lpv_cascades({8, 8, 8}, 1, {3.3, -2.1, 100.4}, 3);
+    p.offset = 0;
     return p;
   };
   cases.push_back({kernel, "sample, three cascades of the same radiance", "no seam (largest relative error of irradiance)", float_bound,
