@@ -8,6 +8,7 @@
 #include "bench/report/filters.h"
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
+#include "bench/report/lpv_scenes.h"
 #include "bench/report/mips.h"
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
@@ -20,6 +21,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
+#include "tests/cases/lpv_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
 #include "tests/cases/voxelize_cases.h"
@@ -94,6 +96,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, screen_left_out(session));
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
+  }
+  if (settings.wants("light_propagation")) {
+    append(jobs, lpv_scene_grid(session, missing));
+    append(jobs, lpv_scene_left_out(session));
+    append(jobs, stability_jobs(session, cases::lpv_inject_cases()));
+    append(jobs, stability_jobs(session, cases::lpv_geometry_cases()));
+    append(jobs, stability_jobs(session, cases::lpv_sample_cases()));
   }
   for (const std::string& line : missing) session.note("skipped", line);
   if (!settings.only.empty())

@@ -23,7 +23,8 @@ struct Settings {
 /// Kernels that the report measures.
 inline const std::vector<std::string>& measured_kernels() {
   static const std::vector<std::string> names{"gaussian_blur", "bilateral",  "mip_build",
-                                              "voxelize",      "cone_trace", "hiz_ssr"};
+                                              "voxelize",      "cone_trace", "hiz_ssr",
+                                              "light_propagation"};
   return names;
 }
 
