@@ -21,6 +21,7 @@ constexpr RenderMethod methods[] = {
     {"cone", "voxel cone tracing on a device", render_cone},
     {"ssr", "the same, with reflections found on the screen before the cones'", render_ssr},
     {"probe", "octahedral probes on a grid, filtered visibility", render_probe},
+    {"lpv", "light propagation volumes on a device", render_lpv},
     {"truth", "path tracing on the CPU, two independent halves", render_truth},
 };
 
@@ -40,7 +41,13 @@ struct Arguments {
   std::string probes = "8";
   int probe_size = 32, irradiance_size = 8, distance_size = 16, probe_bounces = 3;
   bool unfiltered = false;
+  std::string lobes = "linear", blockers = "surfaces";
+  int cells = 32, lpv_steps = 0, cascades = 1, bands = 2;
+  double damping = 0, lpv_filter = 0;
 };
+
+constexpr const char* lobe_names[] = {"linear", "clamp", "shrink", "rescale"};
+constexpr const char* blocker_names[] = {"none", "surfaces", "empty", "maps"};
 
 // Numbers between commas. Empty unless there are `count` and all are finite.
 std::vector<double> numbers(std::string_view text, std::size_t count) {
@@ -238,7 +245,18 @@ int run(const Arguments& a) {
   probes.bounces = a.probe_bounces;
   probes.filter.irradiance_size = a.irradiance_size;
   probes.filter.moments_size = a.unfiltered ? 0 : a.distance_size;
-  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones, screen, probes, probes.bounce});
+  scene::LpvSceneSettings lpv;
+  lpv.resolution = a.cells;
+  lpv.cascades = a.cascades;
+  lpv.bands = a.bands;
+  lpv.iterations = a.lpv_steps;
+  lpv.lobes = static_cast<LpvLobes>(std::find(std::begin(lobe_names), std::end(lobe_names), a.lobes) - std::begin(lobe_names));
+  lpv.blockers = static_cast<scene::LpvBlockers>(std::find(std::begin(blocker_names), std::end(blocker_names), a.blockers) -
+                                                 std::begin(blocker_names));
+  lpv.filter = a.lpv_filter;
+  LpvSampleParams by_lpv;
+  by_lpv.damping = a.damping;
+  auto rendered = method->run({scene, rays.value(), g, a.device, settings, voxels, cones, screen, probes, probes.bounce, lpv, by_lpv});
   if (!rendered) return complain(rendered.status());
   RenderOutput& output = rendered.value();
   clock.ms();
@@ -388,6 +406,28 @@ void add_render(CLI::App& app, int& exit_status) {
       ->type_name("N")
       ->check(within(1, 16, true));
   command->add_flag("--unfiltered", a->unfiltered, "of probe: trilinear alone, without visibility");
+  command->add_option("--cells", a->cells, "of lpv: along the scene's longest side, 4..256; cascades: along every side; default 32")
+      ->type_name("N")
+      ->check(within(4, 256, true));
+  command->add_option("--steps", a->lpv_steps, "of lpv: steps of light, 1..1000; default 0: as many as cells along the longest side")
+      ->type_name("N")
+      ->check(within(0, 1000, true));
+  command->add_option("--cascades", a->cascades, "of lpv: nested grids about the middle of what is seen, 1..3; default 1: the whole scene")
+      ->type_name("N")
+      ->check(within(1, 3, true));
+  command->add_option("--bands", a->bands, "of lpv: of spherical harmonics, 2 or 3; default 2")->type_name("N")->check(within(2, 3, true));
+  command->add_option("--lobes", a->lobes, fmt::format("of lpv: {}: what is done where a lobe is negative; default {}", fmt::join(lobe_names, "|"), a->lobes))
+      ->type_name("NAME")
+      ->check(one_of(std::vector<std::string>(std::begin(lobe_names), std::end(lobe_names))));
+  command->add_option("--blockers", a->blockers, fmt::format("of lpv: {}: what blocks light; default {}", fmt::join(blocker_names, "|"), a->blockers))
+      ->type_name("NAME")
+      ->check(one_of(std::vector<std::string>(std::begin(blocker_names), std::end(blocker_names))));
+  command->add_option("--damping", a->damping, "of lpv: 0..1: light that grows from behind a surface is dropped; default 0")
+      ->type_name("NUMBER")
+      ->check(within(0, 1, false));
+  command->add_option("--lpv-filter", a->lpv_filter, "of lpv: weight of a cell's neighbours in a blur of the volume, 0..0.333; default 0: none")
+      ->type_name("NUMBER")
+      ->check(within(0, 1.0 / 3, false));
   add_device_option(*command, a->device);
   command->footer("Truth runs on the CPU whatever --device says, and is kept on disk, in LUXEL_CACHE.");
   command->callback([a, &exit_status] { exit_status = run(*a); });

@@ -7,6 +7,7 @@
 
 #include "bench/io/image.h"
 #include "bench/scene/compose.h"
+#include "bench/scene/lpv_scene.h"
 #include "bench/scene/probe_scene.h"
 #include "bench/scene/screen.h"
 #include "bench/scene/voxel_scene.h"
@@ -26,6 +27,8 @@ struct RenderInput {
   HizSsrParams screen;            // of ssr: how rays walk; view and resources are the method's own
   scene::ProbeSceneSettings probes;  // of probe
   ProbeShadeParams by_probes;     // of probe: visibility, facing and biases; grid and receivers are the method's own
+  scene::LpvSceneSettings lpv;    // of lpv; `centre` and `seen` are the method's own
+  LpvSampleParams by_lpv;         // of lpv: how volumes are looked up; grids and receivers are the method's own
 };
 
 /// Milliseconds that a step took; `phase` is build (once for a scene), update (once for a change of light) or shade (once
@@ -66,5 +69,6 @@ Result<RenderOutput> render_truth(const RenderInput& input);
 Result<RenderOutput> render_cone(const RenderInput& input);
 Result<RenderOutput> render_ssr(const RenderInput& input);
 Result<RenderOutput> render_probe(const RenderInput& input);
+Result<RenderOutput> render_lpv(const RenderInput& input);
 
 }  // namespace luxel::program

@@ -8,6 +8,7 @@
 #include "bench/report/filters.h"
 #include "bench/report/gaussian.h"
 #include "bench/report/limits.h"
+#include "bench/report/lpv_scenes.h"
 #include "bench/report/mips.h"
 #include "bench/report/octree.h"
 #include "bench/report/propagation.h"
@@ -25,6 +26,7 @@
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
 #include "tests/cases/light_propagation_cases.h"
+#include "tests/cases/lpv_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/octahedral_march_cases.h"
 #include "tests/cases/probe_cases.h"
@@ -121,6 +123,11 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, propagation_reproduction(session));
     append(jobs, propagation_peers(session));
     append(jobs, stability_jobs(session, cases::light_propagation_cases()));
+    append(jobs, lpv_scene_grid(session, missing));
+    append(jobs, lpv_scene_left_out(session));
+    append(jobs, stability_jobs(session, cases::lpv_inject_cases()));
+    append(jobs, stability_jobs(session, cases::lpv_geometry_cases()));
+    append(jobs, stability_jobs(session, cases::lpv_sample_cases()));
   }
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);

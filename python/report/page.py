@@ -156,6 +156,44 @@ def kernel_section(report, kernel, pictures, figures, folder):
     return "\n".join(parts)
 
 
+def methods(report, figures):
+    """Every method of global illumination on the same scenes, receivers and metric."""
+    if not figures:
+        return ""
+    parts = ['<h2 id="methods">Global illumination: error against time, all methods</h2>']
+    parts.append(
+        '<p class="note">Rows of all kernels that light the same receivers of the same scene, by the same metric against '
+        'the same path-traced truth: what the error is, and what moving light costs a frame. Time is update (once for a '
+        'change of light) and shade (once for a picture) together; what is built once for a scene is left out. The line '
+        'joins what nothing is as exact as and faster.</p>'
+    )
+    for index, (scene, metric, count, svg) in enumerate(figures):
+        drawing = f'<div class="wide">{svg}</div>'
+        parts.append(drawing if index == 0 else details(f"{scene}: {metric}, {count} points", drawing))
+    for (scene, size, metric), mine in rows.by_scene(report).items():
+        for device in dict.fromkeys(row["device"] for row in mine):
+            best = rows.best_of([row for row in mine if row["device"] == device])
+            body = [
+                (
+                    row,
+                    [
+                        row["kernel"],
+                        rows.setting(row),
+                        number(rows.total_error(row)),
+                        number(rows.frame_time(row), 4),
+                        number(row["time_ms"]["update"] and row["time_ms"]["update"]["median"]),
+                        number(row["time_ms"]["shade"] and row["time_ms"]["shade"]["median"]),
+                        number(row["time_ms"]["build"] and row["time_ms"]["build"]["median"]),
+                        number(None if row["memory_bytes"] is None else row["memory_bytes"] / 2**20),
+                    ],
+                )
+                for row in best
+            ]
+            head = ["kernel", "setting", "#error", "#ms", "#update", "#shade", "#build", "#MiB"]
+            parts.append(details(f"{scene}, {device}: which one to take, by time", table(head, body)))
+    return "\n".join(parts)
+
+
 def stability(report, kernel):
     mine = [row for row in report["stability"] if row["kernel"] == kernel]
     if not mine:
@@ -326,7 +364,7 @@ def first_use(report):
     return "\n".join(parts)
 
 
-def page(report, pictures, figures, folder):
+def page(report, pictures, figures, folder, all_methods=()):
     machine, guard = report["machine"], report["machine"]["guard"]
     kernels = list(dict.fromkeys(row["kernel"] for row in report["frontier"]))
     broken = [row for row in report["stability"] if not row["pass"]]
@@ -345,9 +383,11 @@ def page(report, pictures, figures, folder):
         + "</b></p>",
         "<nav>"
         + "".join(f'<a href="#{esc(kernel)}">{esc(kernel)}</a>' for kernel in kernels)
+        + ('<a href="#methods">all methods</a>' if all_methods else "")
         + '<a href="#machine">machine</a></nav>',
     ]
     parts += [kernel_section(report, kernel, pictures, figures, folder) for kernel in kernels]
+    parts.append(methods(report, all_methods))
     parts.append(reproduction(report))
     parts.append('<h2 id="machine">Devices and limits</h2>')
     parts.append(

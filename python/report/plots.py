@@ -69,9 +69,64 @@ def draw(report, folder):
     return figures
 
 
-def save(figure, points, path):
+def draw_methods(report, folder):
+    """[(scene, metric, number of points, svg)]: every method of global illumination on one scene, a panel a device."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figures = []
+    for index, ((scene, size, metric), points) in enumerate(rows.by_scene(report).items()):
+        devices = list(dict.fromkeys(row["device"] for row in points))
+        kernels = list(dict.fromkeys(row["kernel"] for row in points))
+        colours = dict(zip(kernels, plt.cm.viridis(np.linspace(0.0, 0.85, len(kernels)))))
+        figure, axes = plt.subplots(1, len(devices), figsize=(5.2 * len(devices), 4.4), sharey=True, squeeze=False)
+        for axis, device in zip(axes[0], devices):
+            axis.set_xscale("log")
+            axis.set_yscale("log")
+            mine = [row for row in points if row["device"] == device]
+            best = rows.best_of(mine)
+            for number, row in enumerate(points):
+                if row["device"] != device:
+                    continue
+                on = row in best
+                axis.plot(
+                    [rows.frame_time(row)],
+                    [max(rows.total_error(row), FLOOR)],
+                    marker=MARKERS[kernels.index(row["kernel"]) % len(MARKERS)],
+                    ms=6 if on else 4.5,
+                    mfc=colours[row["kernel"]] if on else "none",
+                    mec=colours[row["kernel"]],
+                    ls="",
+                    gid=f"point{number}",
+                    zorder=3,
+                )
+            axis.plot(
+                [rows.frame_time(row) for row in best],
+                [max(rows.total_error(row), FLOOR) for row in best],
+                color="#444444",
+                lw=0.9,
+                zorder=2,
+            )
+            axis.set_title(device if len(device) < 46 else device[:44] + "…", fontsize=9)
+            axis.set_xlabel("update + shade, ms")
+        axes[0][0].set_ylabel(metric)
+        handles = [
+            plt.Line2D([], [], color=colours[k], marker=MARKERS[i % len(MARKERS)], ls="", ms=6, label=k)
+            for i, k in enumerate(kernels)
+        ]
+        figure.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=6, frameon=False)
+        figure.suptitle(f"{scene}, {size}: all methods", y=1.0)
+        figure.tight_layout()
+        label = lambda row: (
+            f"{row['kernel']} {rows.setting(row)}\n{rows.number(rows.frame_time(row), 4)} ms update + shade, "
+            f"error {rows.number(rows.total_error(row))}"
+        )
+        svg = save(figure, points, folder / f"methods_{index}", label)
+        figures.append((f"{scene}, {size}", metric, len(points), svg))
+    return figures
+
+
+def save(figure, points, path, label=None):
     figure.savefig(path.with_suffix(".png"), dpi=110, bbox_inches="tight")
-    svg = titled(figure, points)
+    svg = titled(figure, points, label)
     path.with_suffix(".svg").write_text(svg)
     plt.close(figure)
     return svg
@@ -187,21 +242,23 @@ def panel(axis, numbered, colours, markers):
         axis.plot(*zip(*points), color=colours[key], lw=0.9, alpha=0.7, zorder=2)
 
 
-def titled(figure, points):
-    """SVG text in which each point has a <title> with its setting, time and error."""
+def titled(figure, points, label=None):
+    """SVG text in which each point has a <title>: its setting, time and error, or what `label` makes of its row."""
     text = io.StringIO()
     figure.savefig(text, format="svg", bbox_inches="tight", metadata={"Date": None})
     svg = re.sub(r"^.*?(?=<svg )", "", text.getvalue(), flags=re.DOTALL)
 
     def title(match):
         row = points[int(match.group(1))]
+        if label:
+            return f'{match.group(0)}<title>{html.escape(label(row))}</title>'
         parts = ", ".join(
             f"{part} {rows.number(row['error'][part])}" for part in rows.PARTS if row["error"][part] is not None
         )
-        label = (
+        text = (
             f"{rows.setting(row)}\n{rows.number(rows.total_time(row), 4)} ms, error {rows.number(rows.total_error(row))}"
             f"\n{parts}" + ("" if row["on_frontier"] else "\nnot on the frontier")
         )
-        return f'{match.group(0)}<title>{html.escape(label)}</title>'
+        return f'{match.group(0)}<title>{html.escape(text)}</title>'
 
     return re.sub(r'<g id="point(\d+)">', title, svg)

@@ -31,7 +31,8 @@ def main():
         print(f"{folder}: {error}; run `luxel report -o {folder}` again", file=sys.stderr)
         return 2
     figures = plots.draw(report, folder / "plots")
-    (folder / "index.html").write_text(page.page(report, pictures, figures, folder))
+    methods = plots.draw_methods(report, folder / "plots")
+    (folder / "index.html").write_text(page.page(report, pictures, figures, folder, methods))
     return 0
 
 

@@ -13,6 +13,32 @@ def total_time(row, quartile="median"):
     return sum(phase[quartile] for phase in row["time_ms"].values() if phase)
 
 
+BOUNCE = "irradiance after one bounce"
+
+
+def frame_time(row, quartile="median"):
+    """What moving light costs a frame: update and shade, without what is built once."""
+    return sum(row["time_ms"][phase][quartile] for phase in ("update", "shade") if row["time_ms"].get(phase))
+
+
+def by_scene(report):
+    """{(scene, size, metric): rows} of whole scenes that kernels of several names light at the same receivers."""
+    views = {}
+    for row in report["frontier"]:
+        if row["error"]["metric"].startswith(BOUNCE) and frame_time(row) > 0:
+            views.setdefault((row["scene"], row["size"], row["error"]["metric"]), []).append(row)
+    return {view: mine for view, mine in views.items() if len({row["kernel"] for row in mine}) > 1}
+
+
+def best_of(mine):
+    """Those of one device that nothing is as exact as and faster, the fastest first."""
+    best = []
+    for row in sorted(mine, key=lambda row: (frame_time(row), total_error(row))):
+        if not best or total_error(row) < total_error(best[-1]):
+            best.append(row)
+    return best
+
+
 def number(value, digits=3):
     if value is None:
         return "–"
