@@ -36,6 +36,35 @@ bool slot_fits(const Plan& plan, const Slot& slot, const BindingInfo& binding) {
   return false;
 }
 
+bool same(const Slot& a, const Slot& b) { return a.source == b.source && a.index == b.index; }
+
+/// What is wrong with where pass `index` finds its number of workgroups; empty: nothing.
+std::string defect_of_counts(const Plan& plan, std::size_t index) {
+  const Counts& counts = *plan.passes[index].counts;
+  const auto at = static_cast<std::size_t>(counts.slot.index);
+  std::size_t bytes = 0;
+  Format format = Format::f32x1;
+  if (counts.slot.source == Slot::Source::scratch && at < plan.scratch.size()) {
+    format = plan.scratch[at].format;
+    bytes = plan.scratch[at].count * bytes_per_pixel(format);
+  } else if (counts.slot.source == Slot::Source::resource && at < plan.resources.size() &&
+             plan.resources[at].kind == ResourceKind::buffer) {
+    format = plan.resources[at].format;
+    bytes = plan.resources[at].bytes;
+  }
+  if (format != Format::u32 || bytes < 12 || counts.first > (bytes - 12) / 4) return "finds no three u32 where its counts are";
+  bool written = false;
+  for (std::size_t p = 0; p <= index; ++p) {
+    const Pass& pass = plan.passes[p];
+    for (std::size_t i = 0; i < pass.slots.size(); ++i) {
+      if (!same(pass.slots[i], counts.slot) || !is_written(pass.module->bindings[i].kind)) continue;
+      if (p == index) return "writes its own counts";
+      written = true;
+    }
+  }
+  return written ? "" : "has counts that no earlier pass wrote";
+}
+
 }  // namespace
 
 Status check(const Plan& plan) {
@@ -67,6 +96,9 @@ Status check(const Plan& plan) {
       if (pass.workgroup[static_cast<std::size_t>(axis)] == 0 || pass.groups[static_cast<std::size_t>(axis)] == 0)
         return pass_defect("has an empty workgroup or no workgroups");
     }
+    if (!pass.counts) continue;
+    const std::string wrong = defect_of_counts(plan, static_cast<std::size_t>(&pass - plan.passes.data()));
+    if (!wrong.empty()) return pass_defect(wrong);
   }
   const std::vector<Use> use = uses(plan);
   for (std::size_t a = 0; a < use.size(); ++a) {
@@ -112,6 +144,10 @@ std::vector<Use> uses(const Plan& plan) {
       if (is_read(kind)) use.read = true;
       use.last_use = static_cast<int>(p);
     }
+    if (!pass.counts || pass.counts->slot.source != Slot::Source::resource) continue;
+    Use& counted = result[static_cast<std::size_t>(pass.counts->slot.index)];
+    counted.read = true;
+    counted.last_use = static_cast<int>(p);
   }
   return result;
 }

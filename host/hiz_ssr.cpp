@@ -194,6 +194,8 @@ class Reflecting {
   bool stochastic() const { return p_.variant == SsrVariant::stochastic; }
   int scale() const { return p_.half_resolution ? 2 : 1; }
   int each() const { return stochastic() ? p_.rays_per_pixel : 1; }
+  std::uint32_t rays_a_tile() const { return static_cast<std::uint32_t>(tile * tile * each()); }
+  std::uint32_t pixels_a_tile() const { return static_cast<std::uint32_t>(tile * tile * scale() * scale()); }
   int depth() const { return static_cast<int>(p_.depth); }
   static std::uint32_t parts(int n, int size) { return static_cast<std::uint32_t>((n + size - 1) / size); }
 
@@ -218,6 +220,7 @@ class Reflecting {
     tiles_ = static_cast<std::size_t>(x) * y;
     const Slot flags = planner_.scratch(Format::u32, tiles_);
     list_ = planner_.scratch(Format::u32, tiles_ + 1);
+    counts_ = planner_.scratch(Format::u32, 6);
     Slots slots{{"depth", depth_}, {"normals", source_}, {"flags", flags}, {"hits", hits_}, {"paths", paths_}};
     if (p_.shade) slots.emplace_back("radiance", radiance_);
     planner_.pass("hiz_ssr_tiles", p_.shade ? "shaded" : "hits", "hiz_ssr tiles", {x, y, 1}, {8, 4, 1},
@@ -230,7 +233,13 @@ class Reflecting {
                    {"cutoff", p_.cutoff}},
                   {{"DEPTH", depth()}}, slots);
     planner_.pass("hiz_ssr_list", "u32", "hiz_ssr list of tiles", {parts(static_cast<int>(tiles_), 64), 1, 1}, {8, 1, 1},
-                  {{"tiles", static_cast<double>(tiles_)}}, {}, {{"flags", flags}, {"tile_list", list_}});
+                  {{"tiles", static_cast<double>(tiles_)},
+                   {"rays", rays_a_tile()},
+                   {"pixels", pixels_a_tile()},
+                   {"workgroup", line_[0]},
+                   {"most_rays", strided(tiles_ * rays_a_tile())[0] / line_[0]},
+                   {"most_pixels", strided(tiles_ * pixels_a_tile())[0] / line_[0]}},
+                  {}, {{"flags", flags}, {"tile_list", list_}, {"counts", counts_}});
     planner_.cost(0, static_cast<double>(pixels_) * 20);
   }
 
@@ -242,7 +251,7 @@ class Reflecting {
     std::string module = p_.count ? "count_" : profile_.texels ? "texels_" : "";
     module += p_.rays > 0 ? "rays" : stochastic() ? "stochastic" : "pixels";
     const Three invocations = p_.rays > 0 ? Three{static_cast<std::uint32_t>(p_.rays), 1, 1}
-                                          : strided(tiles_ * tile * tile * static_cast<std::size_t>(each()));
+                                          : strided(tiles_ * rays_a_tile());
     planner_.pass("hiz_ssr", module, "hiz_ssr rays", invocations, line_,
                   {{"width", p_.width},
                    {"height", p_.height},
@@ -272,6 +281,7 @@ class Reflecting {
                    {"fade_thickness", p_.fade_thickness},
                    {"fade_back", p_.fade_back}},
                   {{"METHOD", stochastic() ? 0 : static_cast<int>(p_.variant)}, {"DEPTH", depth()}}, slots);
+    if (p_.rays == 0) planner_.counts(counts_);
     planner_.cost(0, static_cast<double>(hiz_ssr_depth_texels(p_) * 4 + hiz_ssr_rays(p_) * 48));
   }
 
@@ -296,7 +306,7 @@ class Reflecting {
     std::string module = stochastic() ? "stochastic" : "mirror";
     if (p_.fallback) module += "_fallback";
     if (p_.factor) module += "_factor";
-    const Three invocations = strided(tiles_ * tile * tile * static_cast<std::size_t>(scale() * scale()));
+    const Three invocations = strided(tiles_ * pixels_a_tile());
     planner_.pass("hiz_ssr_resolve", module, "hiz_ssr resolve", invocations, line_,
                   {{"width", p_.width},
                    {"height", p_.height},
@@ -318,6 +328,7 @@ class Reflecting {
                    {"environment_g", p_.environment[1]},
                    {"environment_b", p_.environment[2]}},
                   {{"DEPTH", depth()}}, slots);
+    planner_.counts(counts_, 3);
     planner_.cost(0, static_cast<double>(hiz_ssr_colour_texels(p_) * 16 + pixels_ * 36 + hiz_ssr_rays(p_) * 32));
   }
 
@@ -328,7 +339,7 @@ class Reflecting {
   std::size_t tiles_ = 0;
   double scale_ = 0, offset_ = 0;
   Three line_{};
-  Slot depth_, source_, hits_, paths_, directions_, counters_, radiance_, list_;
+  Slot depth_, source_, hits_, paths_, directions_, counters_, radiance_, list_, counts_;
 };
 
 }  // namespace

@@ -71,6 +71,11 @@ void Planner::pass(std::string_view part, std::string_view module_name, std::str
   plan_.passes.push_back(std::move(pass));
 }
 
+void Planner::counts(Slot slot, std::size_t first) {
+  if (plan_.passes.empty()) return fail(Code::internal, "counts of no pass");
+  plan_.passes.back().counts = Counts{slot, first};
+}
+
 Result<Plan> Planner::finish() && {
   if (!status_) return status_;
   std::size_t at = plan_.tables.size() * table_bytes;

@@ -32,6 +32,9 @@ class Planner {
   void pass(std::string_view part, std::string_view module, std::string label, std::array<std::uint32_t, 3> invocations,
             std::array<std::uint32_t, 3> workgroup, const Values& parameters, const Values& constants,
             const std::vector<std::pair<std::string_view, Slot>>& slots);
+  /// The pass added last finds its number of workgroups in three u32 of `slot`, from element `first`, which an earlier
+  /// pass wrote (kernels/math/launch.h); its invocations are then the most there may be.
+  void counts(Slot slot, std::size_t first = 0);
   void cost(double flops, double bytes) { plan_.flops += flops; plan_.bytes += bytes; }
 
   /// The finished plan, or the first defect met on the way.

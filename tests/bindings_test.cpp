@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "host/bindings.h"
+#include "tests/support/probe_list.h"
 
 namespace luxel {
 namespace {
@@ -127,6 +128,25 @@ TEST(Bindings, AGoodPlanPassesAndEveryDefectIsInternal) {
     EXPECT_EQ(check(chain.plan).code(), Code::internal) << "defect " << i;
     EXPECT_EQ(check(chain.plan).message().rfind("chain: ", 0), 0u);
   }
+  Plan counted = probe_list_plan(3);
+  EXPECT_TRUE(check(counted).ok()) << check(counted).message();
+  const std::vector<std::pair<std::function<void(Plan&)>, std::string>> miscounted = {
+      {[](Plan& p) { p.passes[1].counts->first = 2; }, "probe: pass walk finds no three u32 where its counts are"},
+      {[](Plan& p) { p.passes[1].counts->slot.index = 2; }, "finds no three u32"},
+      {[](Plan& p) { p.passes[1].counts->slot = {Slot::Source::table, 0}; }, "finds no three u32"},
+      {[](Plan& p) { p.scratch[1].format = Format::f32x1; }, "finds no three u32"},
+      {[](Plan& p) { p.passes[1].counts->slot = {Slot::Source::resource, 0}; }, "counts that no earlier pass wrote"},
+      {[](Plan& p) { std::swap(p.passes[0], p.passes[1]); }, "counts that no earlier pass wrote"},
+      {[](Plan& p) { p.passes[0].counts = p.passes[1].counts; }, "probe: pass make writes its own counts"},
+  };
+  for (const auto& [change, what] : miscounted) {
+    Plan plan = probe_list_plan(3);
+    change(plan);
+    EXPECT_EQ(check(plan).code(), Code::internal) << what;
+    EXPECT_NE(check(plan).message().find(what), std::string::npos) << check(plan).message() << "\nexpected: " << what;
+  }
+  counted.resources[0].may_alias = counted.resources[1].may_alias = true;  // both are u32 that the walk still needs
+  EXPECT_TRUE(check(counted).ok()) << "marked is read for the last time before done is written";
   Chain aliases;  // dst is written after src was read for the last time
   aliases.plan.resources[0].may_alias = aliases.plan.resources[1].may_alias = true;
   EXPECT_TRUE(check(aliases.plan).ok());

@@ -1,16 +1,14 @@
-// hiz_ssr in the generated atrium: against the exhaustive walk over its G-buffer, against rays through the scene, and against
+// hiz_ssr in the generated atrium and in Sponza: against the exhaustive walk over its G-buffer, against rays through the scene, and against
 // path tracing in two halves, split into what the screen knows and what it cannot know.
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
+#include <cstdlib>
 
-#include "bench/scene/compose.h"
 #include "bench/scene/screen.h"
-#include "bench/truth/path_truth.h"
-#include "bench/truth/ssr_scene.h"
+#include "bench/truth/ssr_radiance.h"
 #include "tests/cases/hiz_ssr_support.h"
 #include "tests/support/run.h"
 
@@ -20,17 +18,23 @@ namespace {
 using namespace cases;
 using scene::GBuffer;
 
-struct Atrium {
+std::string scene_file(const std::string& name) {
+  const char* data = std::getenv("LUXEL_DATA");
+  return name == "atrium" ? name : std::string(data ? data : "../shared/data") + "/crytek_sponza/sponza.glb";
+}
+
+struct Stage {
   scene::Scene scene;
   std::unique_ptr<scene::Rays> rays;
   GBuffer g;
 
-  static const Atrium& get(int width, int height) {
-    static std::map<int, std::unique_ptr<Atrium>> made;
-    auto& a = made[width];
+  static const Stage& get(const std::string& name, int width, int height) {
+    static std::map<std::pair<std::string, int>, std::unique_ptr<Stage>> made;
+    auto& a = made[{name, width}];
     if (!a) {
-      a = std::make_unique<Atrium>();
-      a->scene = scene::built_in("atrium").value();
+      a = std::make_unique<Stage>();
+      a->scene = scene::scene_from(scene_file(name)).value();
+      if (name != "atrium") a->scene.camera = {{-60, 12, -3}, {60, 25, -2}, 65};
       a->rays = std::make_unique<scene::Rays>(scene::Rays::make(a->scene).value());
       a->g = scene::gbuffer(*a->rays, a->scene.camera, width, height);
     }
@@ -38,14 +42,18 @@ struct Atrium {
   }
 };
 
+class HizSsrScene : public testing::TestWithParam<std::string> {};
+std::string text_of(const testing::TestParamInfo<std::string>& info) { return info.param; }
+INSTANTIATE_TEST_SUITE_P(Scenes, HizSsrScene, testing::Values("atrium", "Sponza"), text_of);
+
 // 1/64 of the scene's diagonal, as `luxel render` has it.
 double thickness_of(const scene::Scene& s) {
   const scene::Bounds box = bounds(s);
   return glm::length(box.high - box.low) / 64;
 }
 
-TEST(HizSsrScene, AgreesWithTheExhaustiveWalkInTheAtrium) {
-  const Atrium& a = Atrium::get(192, 108);
+TEST_P(HizSsrScene, AgreesWithTheExhaustiveWalk) {
+  const Stage& a = Stage::get(GetParam(), 192, 108);
   HizSsrParams p = screen_params(a.g, a.scene.camera);
   p.thickness = thickness_of(a.scene);
   Values depth(a.g.depth.begin(), a.g.depth.end()), normals;
@@ -62,7 +70,7 @@ TEST(HizSsrScene, AgreesWithTheExhaustiveWalkInTheAtrium) {
     EXPECT_GT(agreed.rays, 400);
     EXPECT_GT(agreed.hits, 150);
     EXPECT_GE(agreed.equal, 0.99 * agreed.rays);
-    std::printf("atrium 192x108: %d rays, %d hits, %d the exhaustive walk's, %d ties\n", agreed.rays, agreed.hits, agreed.equal, agreed.ties);
+    std::printf("%s 192x108: %d rays, %d hits, %d the exhaustive walk's, %d ties\n", GetParam().c_str(), agreed.rays, agreed.hits, agreed.equal, agreed.ties);
   }
 }
 
@@ -71,7 +79,7 @@ struct Shares {
 };
 
 // Of each class: rays, those that hit something on the screen, and those that hit within 2 pixels of the truth.
-Shares shares_of(const Atrium& a, const HizSsrParams& params, const std::vector<truth::Mirrored>& truth) {
+Shares shares_of(const Stage& a, const HizSsrParams& params, const std::vector<truth::Mirrored>& truth) {
   HizSsrParams p = params;
   p.count = true;
   const std::vector<float> normals = screen_normals(a.g, a.scene.camera);
@@ -89,12 +97,12 @@ Shares shares_of(const Atrium& a, const HizSsrParams& params, const std::vector<
   return s;
 }
 
-TEST(HizSsrScene, FindsWhatTheScreenKnows) {
-  const Atrium& a = Atrium::get(480, 270);
+TEST_P(HizSsrScene, FindsWhatTheScreenKnows) {
+  const Stage& a = Stage::get(GetParam(), 480, 270);
   const auto truth = truth::mirrored(*a.rays, a.g, a.scene.camera);
   HizSsrParams p = screen_params(a.g, a.scene.camera);
   p.thickness = thickness_of(a.scene);
-  p.max_distance = 60;
+  p.max_distance = 64 * p.thickness;  // the scene's diagonal
   constexpr const char* names[] = {"nothing", "on screen", "off screen", "hidden", "sky"};
   double found[3] = {};
   for (const SsrVariant v : {SsrVariant::hiz, SsrVariant::dda, SsrVariant::linear}) {
@@ -109,81 +117,63 @@ TEST(HizSsrScene, FindsWhatTheScreenKnows) {
     found[static_cast<int>(v)] = static_cast<double>(s.right[1]) / s.count[1];
   }
   // What a hit is missed by: surfaces whose pixel is elsewhere than the ray by more than their thickness, and mirrored edges.
-  EXPECT_GE(found[0], 0.95);
+  // Measured: 0.970 and 0.915, where columns and cloth hide one another more than thickness allows for.
+  EXPECT_GE(found[0], GetParam() == "atrium" ? 0.95 : 0.9);
   EXPECT_EQ(found[0], found[1]);
   EXPECT_LT(found[2], found[0]);
 }
 
-// relMSE of radiance in the lobe against two independent halves, of each class of mirror rays.
-struct Errors {
-  std::array<double, truth::seen_classes> relmse{};
+struct Lobes {
+  std::string scene;
+  bool mirror = false;
+  int width = 192, height = 108;
+  double known = 0.25;  // of the error without reflections, at most, where the screen knows; measured, rounded up
 };
-Errors errors_of(const GBuffer& g, const std::vector<float>& radiance, const truth::PathTruth& t, const std::vector<truth::Mirrored>& seen) {
-  std::array<double, truth::seen_classes> sum{}, count{};
-  double mean = 0, all = 0;
-  for (std::size_t i = 0; i < g.pixels(); ++i) {
-    const auto c = static_cast<std::size_t>(seen[i].seen);
-    if (c == 0) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t j = 3 * i + k;
-      const double t1 = t.glossy_all.t1[j] + t.glossy_sky.t1[j] + t.glossy_emitted.t1[j];
-      const double t2 = t.glossy_all.t2[j] + t.glossy_sky.t2[j] + t.glossy_emitted.t2[j];
-      const double x = radiance[4 * i + k];
-      sum[c] += (x - t1) * (x - t2);
-      ++count[c];
-      mean += (t1 + t2) / 2, ++all;
-    }
-  }
-  mean /= all;
-  Errors e;
-  for (std::size_t c = 0; c < sum.size(); ++c) e.relmse[c] = count[c] > 0 ? sum[c] / count[c] / (mean * mean) : 0;
-  return e;
-}
-
-class HizSsrTruthFull : public testing::TestWithParam<bool> {};
+class HizSsrTruthFull : public testing::TestWithParam<Lobes> {};
 
 TEST_P(HizSsrTruthFull, IsNearestToPathTracingWhereTheScreenKnows) {
-  const bool mirror = GetParam();
-  const Atrium& a = Atrium::get(192, 108);
-  auto receivers = truth::receivers(a.g, a.scene.camera.eye);
-  if (mirror)
-    for (auto& r : receivers) r.roughness = 0;
-  truth::PathSettings settings;
-  settings.samples = mirror ? 16 : 64;
-  const auto traced = truth::path_truth(*a.rays, receivers, settings);
-  ASSERT_TRUE(traced) << traced.status().message();
-  const truth::PathTruth& t = traced.value();
-  std::vector<float> colour;
-  for (std::size_t i = 0; i < a.g.pixels(); ++i) {
-    const glm::dvec3 l = a.g.at(a.g.emission, i) + a.g.at(a.g.albedo, i) / std::numbers::pi *
-                                                       (t.sun.rgb(i) + t.emitted.rgb(i) + t.sky.rgb(i) + t.indirect_all.rgb(i));
-    for (const double v : {l.x, l.y, l.z, 1.0}) colour.push_back(static_cast<float>(v));
-  }
-  std::vector<float> normals = screen_normals(a.g, a.scene.camera);
-  if (mirror)
-    for (std::size_t i = 3; i < normals.size(); i += 4) normals[i] = normals[i] < 1.5f ? 0 : normals[i];
-  const auto seen = truth::mirrored(*a.rays, a.g, a.scene.camera);
-  HizSsrParams p = screen_params(a.g, a.scene.camera);
-  p.shade = true;
-  p.thickness = thickness_of(a.scene);
-  p.fade_edge = 0;
+  const auto& [name, mirror, width, height, known] = GetParam();
+  const Stage& a = Stage::get(name, width, height);
+  const auto made = truth::screen_truth(a.scene, *a.rays, width, height, mirror, mirror ? 16 : name == "atrium" ? 64 : 24);
+  ASSERT_TRUE(made) << made.status().message();
+  const truth::ScreenTruth& t = made.value();
+  HizSsrParams p = t.params;
   p.variant = mirror ? SsrVariant::hiz : SsrVariant::stochastic;
   if (!mirror) p.rays_per_pixel = 4;
-  const auto r = scene::reflect(test_context("cpu"), p, {a.g.depth, normals, {}, colour, {}, {}});
+  const auto r = scene::reflect(test_context("cpu"), p, {t.g.depth, t.normals, {}, t.colour, {}, {}});
   ASSERT_TRUE(r) << r.status().message();
-  const Errors e = errors_of(a.g, r.value().radiance, t, seen);
-  const Errors dark = errors_of(a.g, std::vector<float>(4 * a.g.pixels(), 0.0f), t, seen);
-  std::array<int, truth::seen_classes> count{};
-  for (const truth::Mirrored& m : seen) ++count[static_cast<std::size_t>(m.seen)];
+  p.environment = {0, 0, 0};
+  const auto none = scene::reflect(test_context("cpu"), p, {t.g.depth, t.normals, {}, t.colour, {}, {}});
+  ASSERT_TRUE(none) << none.status().message();
+  const truth::ScreenErrors e = screen_errors(t, r.value().radiance), zero = screen_errors(t, none.value().radiance),
+                            dark = screen_errors(t, std::vector<float>(4 * t.g.pixels(), 0.0f));
   constexpr const char* names[] = {"nothing", "on screen", "off screen", "hidden", "sky"};
-  for (std::size_t c = 1; c < truth::seen_classes; ++c)
-    std::printf("%s, %-10s %6d pixels: relMSE %.4f (without reflections %.4f)\n", mirror ? "mirror" : "glossy", names[c], count[c], e.relmse[c],
-                dark.relmse[c]);
-  // Where the screen knows, nearly all of the light is found; elsewhere what is shown is the environment's 0, or a wrong surface.
-  EXPECT_LE(e.relmse[1], 0.25 * dark.relmse[1]);
+  const auto line = [&](const char* what, int pixels, double with_sky, double with_zero, double without) {
+    std::printf("%s %s, %-10s %6d pixels: relMSE %.4f, misses 0 %.4f, without reflections %.4f\n", name.c_str(),
+                mirror ? "mirror" : "glossy", what, pixels, with_sky, with_zero, without);
+  };
+  int all = 0;
+  for (std::size_t c = 1; c < truth::seen_classes; ++c) {
+    line(names[c], t.pixels[c], e.of[c], zero.of[c], dark.of[c]);
+    all += t.pixels[c];
+  }
+  line("all", all, e.all, zero.all, dark.all);
+  std::printf("standard error of all: %.4f\n", e.standard_error);
+  double parts = 0;
+  for (const double part : e.part) parts += part;
+  EXPECT_NEAR(parts, e.all, 1e-9 * std::fabs(e.all));
+  EXPECT_GT(t.pixels[1], 1000);
+  // Where the screen knows, most of the light is found; elsewhere what is shown is the fallback, or a wrong surface.
+  EXPECT_LE(zero.of[1], known * dark.of[1]);
+  // Mirror rays into the sky find the sky where it is the fallback.
+  if (mirror) { EXPECT_LE(e.of[4], 0.05 * dark.of[4]); }
+  EXPECT_LE(zero.all, dark.all + 4 * zero.standard_error);
 }
 
-INSTANTIATE_TEST_SUITE_P(MirrorAndGlossy, HizSsrTruthFull, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(MirrorAndGlossy, HizSsrTruthFull,
+                         testing::Values(Lobes{"atrium", true}, Lobes{"atrium", false}, Lobes{"Sponza", true, 192, 108, 0.4},
+                                         Lobes{"Sponza", false, 128, 72, 0.65}),
+                         [](const auto& info) { return info.param.scene + (info.param.mirror ? "Mirror" : "Glossy"); });
 
 }  // namespace
 }  // namespace luxel

@@ -94,8 +94,14 @@ TEST(MipBuildFull, BoundsHoldForEveryWidthAndSomeHeightsOnDevices) {
 }
 
 TEST(MipBuildFull, BoundsHoldForEveryWidthAndHeight) {
-  for (const MipBuildParams& kind : bound_kinds()) {
-    if (kind.format != Format::f32x2) continue;
+  std::vector<MipBuildParams> kinds = bound_kinds();
+  // One bound alone, with the sizes that hiz_ssr walks: min, and max for reversed depth.
+  for (const MipVariant v : {MipVariant::min, MipVariant::max}) {
+    kinds.push_back(params(v, Format::f32x1, {1, 1, 1}));
+    kinds.back().sizes = MipSizes::ceil;
+  }
+  for (const MipBuildParams& kind : kinds) {
+    if (kind.format == Format::f16x2) continue;
     for (int width = 1; width <= largest; ++width) {
       for (int height = 1; height <= largest; ++height) {
         if (width * height == 1) continue;

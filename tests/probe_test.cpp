@@ -1,11 +1,15 @@
 // The probe kernel uses every word of the dialect on every execution, so that a driver that gets one wrong is known by name.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
+#include <luxel/reference.h>
+
 #include "host/module.h"
+#include "tests/support/probe_list.h"
 #include "tests/support/run.h"
 
 namespace luxel::built_in {
@@ -108,6 +112,35 @@ TEST_P(Probe, EveryWordGivesTheSameBitsOnEveryExecution) {
     EXPECT_EQ(expected[3], out[3]) << device << " packing";
     EXPECT_EQ(expected[0], out[0]) << device << " pixels of " << module.name;
   }
+}
+
+// Lengths around a workgroup, and a launch that is too short for one item an invocation.
+TEST(ProbeList, EveryItemIsMetOnceHoweverTheWorkgroupsAreCounted) {
+  for (const std::string& device : test_devices()) {
+    Context& context = test_context(device);
+    for (const std::uint32_t most : {3u, 40u})
+      for (const std::size_t length : {0, 1, 32, 33, 500, 1000}) {
+        std::vector<std::uint32_t> marked(probe_items, 0), done(probe_items + 1, 0);
+        for (std::size_t i = 0; i < length; ++i) marked[i * 7 % probe_items] = 1;
+        const Plan plan = probe_list_plan(most);
+        const auto out = run_bytes(context, plan, {{"marked", bytes_of(marked)}, {"done", bytes_of(done)}}, {"done"});
+        std::memcpy(done.data(), out[0].data(), 4 * done.size());
+        for (std::size_t i = 0; i < probe_items; ++i)
+          ASSERT_EQ(done[i], marked[i]) << device << ": item " << i << " of " << length << " in " << most << " workgroups";
+        const bool fixed = context.info().api == Api::opencl;
+        EXPECT_EQ(done[probe_items], fixed ? most : std::min<std::uint32_t>(most, (length + 31) / 32))
+            << device << ": workgroups for " << length << " items";
+      }
+  }
+}
+
+TEST(ProbeList, MoreWorkgroupsThanPlannedAreRefusedByTheCppExecution) {
+  Plan plan = probe_list_plan(3);
+  plan.passes[0].parameters[2] = 4;
+  std::vector<std::uint32_t> marked(probe_items, 1), done(probe_items + 1, 0);
+  const Status status = reference::run(plan, {{"marked", marked.data(), 4 * marked.size()}, {"done", done.data(), 4 * done.size()}});
+  EXPECT_EQ(status.code(), Code::internal);
+  EXPECT_EQ(status.message(), "probe: pass walk finds 4 workgroups; at most 3 were planned");
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Probe, testing::ValuesIn(built_in::probe.begin(), built_in::probe.end()),

@@ -10,6 +10,7 @@
 
 #include "host/module.h"
 #include "host/vulkan/state.h"
+#include "tests/support/probe_list.h"
 #include "tests/support/vulkan_engine.h"
 
 namespace luxel::built_in {
@@ -249,6 +250,145 @@ TEST_F(VulkanTest, TwoRecordsInOneBufferNeedOnlyTheDocumentedBarrier) {
   EXPECT_TRUE(std::any_of(messages.begin(), messages.end(), [](const std::string& message) {
     return message.find("SYNC-HAZARD") != std::string::npos;
   })) << "synchronization validation is not on, or misses a hazard";
+}
+
+/// A walk along a list of 70 items, bound and zeroed.
+class Walk {
+ public:
+  explicit Walk(const Engine& engine) : plan(probe_list_plan(40)), pipeline(engine.pipeline(plan)), bound(engine, plan) {
+    std::vector<std::uint32_t> marked(probe_items, 0);
+    std::fill(marked.begin() + 100, marked.begin() + 170, 1u);
+    bound.upload("marked", marked);
+    bound.upload("done", std::vector<std::uint32_t>(probe_items + 1, 0));
+  }
+
+  /// How often each item of the list was met, and -1 where an item was met another number of times.
+  int met() {
+    read();
+    for (std::size_t i = 0; i < probe_items; ++i) {
+      if (done_[i] != (i >= 100 && i < 170 ? done_[100] : 0)) return -1;
+    }
+    return static_cast<int>(done_[100]);
+  }
+  std::uint32_t workgroups() {
+    read();
+    return done_[probe_items];
+  }
+
+  Plan plan;
+  Pipeline pipeline;
+  Bound bound;
+
+ private:
+  void read() {
+    const std::vector<std::uint8_t> bytes = bound.output("done");
+    done_.resize(probe_items + 1);
+    std::memcpy(done_.data(), bytes.data(), bytes.size());
+  }
+  std::vector<std::uint32_t> done_;
+};
+
+TEST_F(VulkanTest, AListDecidesTheWorkgroupsOfALaterPass) {
+  for (const bool indirect : {true, false}) {
+    Walk walk(engine());
+    EXPECT_EQ(walk.pipeline.counts(), std::vector<std::string>{"scratch"});
+    const Status status = walk.bound.run(walk.pipeline, indirect);
+    ASSERT_TRUE(status.ok()) << status.message();
+    EXPECT_EQ(walk.met(), 1);
+    EXPECT_EQ(walk.workgroups(), indirect ? 3u : 40u);
+  }
+  EXPECT_TRUE(engine().pipeline(engine().plan()).counts().empty());
+}
+
+TEST_F(VulkanTest, CountsMayLieInABufferOfTheCallers) {
+  Walk walk(engine());
+  Plan plan = walk.plan;
+  plan.resources.push_back({"counts"});
+  plan.resources.back().format = Format::u32;
+  plan.resources.back().bytes = 16;
+  plan.resources.back().written = true;
+  plan.passes[0].slots[2] = plan.passes[1].counts->slot = {Slot::Source::resource, 2};
+  const Pipeline pipeline = engine().pipeline(plan);
+  EXPECT_EQ(pipeline.counts(), std::vector<std::string>{"counts"});
+  Bound bound(engine(), plan);
+  bound.upload("marked", std::vector<std::uint32_t>(probe_items, 1));
+  bound.upload("done", std::vector<std::uint32_t>(probe_items + 1, 0));
+  const Status status = bound.run(pipeline, true);
+  ASSERT_TRUE(status.ok()) << status.message();
+  std::vector<std::uint32_t> done(probe_items + 1), counts(4);
+  std::memcpy(done.data(), bound.output("done").data(), 4 * done.size());
+  std::memcpy(counts.data(), bound.output("counts").data(), 16);
+  EXPECT_EQ(done.back(), 32u);
+  EXPECT_EQ(counts, (std::vector<std::uint32_t>{77, 32, 1, 1}));
+  EXPECT_EQ(std::count(done.begin(), done.end() - 1, 1u), static_cast<std::ptrdiff_t>(probe_items));
+}
+
+TEST_F(VulkanTest, CountsThatAreReadAndWrittenAgainNeedOnlyTheDocumentedBarrier) {
+  const auto twice = [&](bool apart) {
+    Walk walk(engine());
+    Options options[] = {{engine(), walk.pipeline}, {engine(), walk.pipeline}};
+    const Status ran = engine().machine->once([&](VkCommandBuffer commands) {
+      for (int i = 0; i < 2; ++i) {
+        if (i == 1 && apart) {
+          VkMemoryBarrier memory{};
+          memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+          memory.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+          memory.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT |
+                                 VK_ACCESS_TRANSFER_WRITE_BIT;
+          vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &memory, 0,
+                               nullptr, 0, nullptr);
+        }
+        options[i].record.indirect = true;
+        const Status status = walk.pipeline.record(commands, walk.bound.bindings, options[i].record);
+        EXPECT_TRUE(status.ok()) << status.message();
+      }
+    });
+    EXPECT_TRUE(ran.ok()) << ran.message();
+    EXPECT_TRUE(!apart || walk.met() == 2);
+  };
+  twice(true);
+  EXPECT_EQ(take_validation_messages(), std::vector<std::string>{});
+  if (!validating()) return;
+  twice(false);
+  const std::vector<std::string> messages = take_validation_messages();
+  EXPECT_TRUE(std::any_of(messages.begin(), messages.end(), [](const std::string& message) {
+    return message.find("SYNC-HAZARD") != std::string::npos;
+  })) << "synchronization validation is not on, or misses a hazard";
+}
+
+TEST_F(VulkanTest, ABufferThatWasNotMadeForCountsIsReportedByTheLayers) {
+  if (!validating()) GTEST_SKIP() << "only the validation layers see a buffer's usage";
+  Walk walk(engine());
+  const VkDevice device = engine().machine->device();
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = walk.plan.scratch_bytes;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  VkBuffer plain = VK_NULL_HANDLE;
+  ASSERT_EQ(vkCreateBuffer(device, &info, nullptr, &plain), VK_SUCCESS);
+  VkMemoryRequirements needs{};
+  vkGetBufferMemoryRequirements(device, plain, &needs);
+  VkMemoryAllocateInfo allocate{};
+  allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  allocate.allocationSize = needs.size;
+  allocate.memoryTypeIndex = static_cast<std::uint32_t>(engine().machine->memory_type(needs.memoryTypeBits, 0));
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  ASSERT_EQ(vkAllocateMemory(device, &allocate, nullptr, &memory), VK_SUCCESS);
+  ASSERT_EQ(vkBindBufferMemory(device, plain, memory, 0), VK_SUCCESS);
+  walk.bound["scratch"].buffer = plain;
+  walk.bound["scratch"].offset = 0;
+  // Without the claim a fixed launch asks nothing of the buffer.
+  EXPECT_TRUE(walk.bound.run(walk.pipeline, false).ok());
+  EXPECT_EQ(take_validation_messages(), std::vector<std::string>{});
+  EXPECT_EQ(walk.workgroups(), 40u);
+  EXPECT_TRUE(walk.bound.run(walk.pipeline, true).ok());
+  const std::vector<std::string> messages = take_validation_messages();
+  EXPECT_TRUE(std::any_of(messages.begin(), messages.end(), [](const std::string& message) {
+    return message.find("INDIRECT_BUFFER") != std::string::npos;
+  })) << "the layers do not see the missing usage";
+  vkDestroyBuffer(device, plain, nullptr);
+  vkFreeMemory(device, memory, nullptr);
 }
 
 TEST_F(VulkanTest, TimestampsComeInOrder) {

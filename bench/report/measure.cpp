@@ -101,6 +101,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   if (settings.wants("hiz_ssr")) {
     append(jobs, screen_grid(session));
+    append(jobs, screen_truth_grid(session, missing));
     append(jobs, screen_left_out(session));
     append(jobs, screen_peers(session));
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));

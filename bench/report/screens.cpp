@@ -281,11 +281,11 @@ std::vector<Job> screen_grid(Session& session) {
 }
 
 std::vector<Job> screen_left_out(Session& session) {
-  return {{"hiz_ssr left out: tiles that do not reflect", [&session] { return tiles(session, 1280, 720); }}};
+  return {{"hiz_ssr left out: tiles that do not reflect", [&session] { return session.settings().quick ? tiles(session, 640, 360) : tiles(session, 1280, 720); }}};
 }
 
 std::vector<Job> screen_peers(Session& session) {
-  return {{"hiz_ssr peer: a march of dependent reads", [&session] { return beside_march(session, 1280, 720); }}};
+  return {{"hiz_ssr peer: a march of dependent reads", [&session] { return session.settings().quick ? beside_march(session, 640, 360) : beside_march(session, 1280, 720); }}};
 }
 
 std::vector<BenchSetting> hiz_ssr_settings(const Profile& profile) {

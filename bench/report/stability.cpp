@@ -5,17 +5,14 @@
 namespace luxel::report {
 namespace {
 
-std::vector<cases::Case> first_and_last_of_kinds(const std::vector<cases::Case>& all) {
+// The last of each kind: the furthest of a list that goes outwards.
+std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all) {
   const auto kind = [](const cases::Case& c) { return c.name.substr(0, c.name.find_first_of(",0123456789")); };
-  std::map<std::string, std::pair<const cases::Case*, const cases::Case*>> ends;
-  for (const cases::Case& c : all) {
-    auto& [first, last] = ends[kind(c)];
-    first = first ? first : &c;
-    last = &c;
-  }
+  std::map<std::string, const cases::Case*> last;
+  for (const cases::Case& c : all) last[kind(c)] = &c;
   std::vector<cases::Case> kept;
   for (const cases::Case& c : all)
-    if (const auto& [first, last] = ends[kind(c)]; &c == first || &c == last) kept.push_back(c);
+    if (last[kind(c)] == &c) kept.push_back(c);
   return kept;
 }
 
@@ -26,7 +23,7 @@ std::vector<Job> stability_jobs(Session& session, const std::vector<cases::Case>
   std::vector<cases::Case> all;
   for (const cases::Case& c : cases)
     if (cases::applies(c, session.context().info()) && !(c.slow && settings.quick)) all.push_back(c);
-  if (settings.quick && settings.only.empty() && !session.is_cpu()) all = first_and_last_of_kinds(all);
+  if (settings.quick && settings.only.empty() && !session.is_cpu()) all = last_of_kinds(all);
   std::vector<Job> jobs;
   for (const cases::Case& c : all) {
     jobs.push_back({c.kernel + " case " + c.name, [&session, c]() -> Status {

@@ -1,6 +1,7 @@
 #include <luxel/reference.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -121,26 +122,25 @@ Status run(const Plan& plan, const std::vector<Binding>& bindings, Precision pre
   for (const auto& table : plan.tables) tables.emplace_back(table.begin(), table.end());
   std::atomic<std::size_t> outside{0};
   for (const Pass& pass : plan.passes) {
-    std::vector<Memory> memory;
-    for (const Slot& slot : pass.slots) {
+    const auto memory_of = [&](const Slot& slot) {
+      Memory part;
       if (slot.source == Slot::Source::resource) {
-        memory.push_back(resources[slot.index]);
+        part = resources[slot.index];
       } else if (slot.source == Slot::Source::scratch) {
         const ScratchRegion& region = plan.scratch[slot.index];
-        Memory part;
         part.data = base + offsets[slot.index];
         part.bytes = region.count * texel_bytes(region.format, precision);
         part.format = region.format;
-        memory.push_back(part);
       } else {
-        Memory part;
         const bool exact = precision == Precision::real64;
         part.data = exact ? static_cast<void*>(const_cast<double*>(plan.exact_tables[slot.index].data()))
                           : static_cast<void*>(tables[slot.index].data());
         part.bytes = plan.tables[slot.index].size() * (exact ? sizeof(double) : sizeof(float));
-        memory.push_back(part);
       }
-    }
+      return part;
+    };
+    std::vector<Memory> memory;
+    for (const Slot& slot : pass.slots) memory.push_back(memory_of(slot));
     Dispatch dispatch;
     dispatch.bindings = memory;
     dispatch.parameters = pass.parameters;
@@ -148,6 +148,17 @@ Status run(const Plan& plan, const std::vector<Binding>& bindings, Precision pre
     for (int i = 0; i < 3; ++i) {
       dispatch.workgroup[i] = static_cast<int>(pass.workgroup[i]);
       dispatch.groups[i] = static_cast<int>(pass.groups[i]);
+    }
+    if (pass.counts) {
+      std::array<std::uint32_t, 3> found{};
+      const auto* from = static_cast<const std::byte*>(memory_of(pass.counts->slot).data) + 4 * pass.counts->first;
+      std::memcpy(found.data(), from, sizeof found);
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (found[axis] > pass.groups[axis])
+          return {Code::internal, plan.kernel + ": pass " + pass.label + " finds " + std::to_string(found[axis]) +
+                                      " workgroups; at most " + std::to_string(pass.groups[axis]) + " were planned"};
+        dispatch.groups[axis] = static_cast<int>(found[axis]);
+      }
     }
     dispatch.outside = &outside;
     run_pass(pass, dispatch, precision, threads);

@@ -82,6 +82,14 @@ Result<Step> make_step(Device::State& device, const Plan& plan, const Pass& pass
       key.addresses.push_back(plan.resources[static_cast<std::size_t>(pass.slots[i].index)].address);
     }
   }
+  if (pass.counts) {
+    const Slot& slot = pass.counts->slot;
+    const auto index = static_cast<std::size_t>(slot.index);
+    const bool scratch = slot.source == Slot::Source::scratch;
+    step.counted = true;
+    step.counts_need = scratch ? plan.resources.size() : index;
+    step.counts_offset = 4 * pass.counts->first + (scratch ? plan.scratch[index].offset : 0);
+  }
   Result<const Kernel*> kernel = get_kernel(device, key, label);
   if (!kernel) return kernel.status();
   step.kernel = kernel.value();
@@ -94,6 +102,7 @@ std::vector<Need> make_needs(const Plan& plan, const std::vector<Step>& steps, c
   for (const Resource& resource : plan.resources) needs.push_back({resource.name, resource.kind, resource.bytes, 1});
   needs.push_back({"scratch", ResourceKind::buffer, plan.scratch_bytes, 4});
   for (const Step& step : steps) {
+    if (step.counted) needs[step.counts_need].alignment = std::max<VkDeviceSize>(needs[step.counts_need].alignment, 4);
     for (const Descriptor& descriptor : step.descriptors) {
       VkDeviceSize& alignment = needs[descriptor.need].alignment;
       switch (descriptor.type) {
@@ -153,5 +162,15 @@ Result<Pipeline> Pipeline::create(const Device& device, Plan plan) {
 const Plan& Pipeline::plan() const { return state->plan; }
 const std::vector<VkDescriptorPoolSize>& Pipeline::pool_sizes() const { return state->pool_sizes; }
 bool Pipeline::reads_texels() const { return state->reads_texels; }
+
+std::vector<std::string> Pipeline::counts() const {
+  std::vector<std::string> names;
+  for (const Step& step : state->steps) {
+    if (!step.counted) continue;
+    const std::string& name = state->needs[step.counts_need].name;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
 
 }  // namespace luxel::vulkan

@@ -99,6 +99,7 @@ Status DeviceProgram::record(const std::vector<Binding>& bindings, const Recorde
     options.timestamps = queries_;
     options.first_query = static_cast<std::uint32_t>(i) * queries_a_run();
     options.tables_current = wanted.tables_current || i > 0;
+    options.indirect = true;
     options.texel_views = &views_;
     if (Status status = pipeline_.record(commands_.buffer, bindings, options); !status) return status;
   }

@@ -159,11 +159,12 @@ class Writes {
   std::vector<VkWriteDescriptorSet> writes_;
 };
 
-void barrier(VkCommandBuffer commands, VkPipelineStageFlags stage, VkAccessFlags written, VkAccessFlags used) {
+void barrier(VkCommandBuffer commands, VkPipelineStageFlags stage, VkAccessFlags written, VkAccessFlags used,
+             VkPipelineStageFlags by = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT) {
   auto memory = structure<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
   memory.srcAccessMask = written;
   memory.dstAccessMask = used;
-  vkCmdPipelineBarrier(commands, stage, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0, 1, &memory, 0, nullptr, 0, nullptr);
+  vkCmdPipelineBarrier(commands, stage, by, 0, 1, &memory, 0, nullptr, 0, nullptr);
 }
 
 void upload_tables(VkCommandBuffer commands, const Pipeline::State& state, const Binding& scratch) {
@@ -176,7 +177,7 @@ void upload_tables(VkCommandBuffer commands, const Pipeline::State& state, const
 }
 
 void record_step(VkCommandBuffer commands, const Device::State& device, const Pass& pass, const Step& step,
-                 const Writes& writes, VkDescriptorSet set) {
+                 const Writes& writes, VkDescriptorSet set, const Binding* counts) {
   constexpr VkPipelineBindPoint compute = VK_PIPELINE_BIND_POINT_COMPUTE;
   const Kernel& kernel = *step.kernel;
   if (device.begin_label) {
@@ -194,7 +195,11 @@ void record_step(VkCommandBuffer commands, const Device::State& device, const Pa
     vkCmdPushConstants(commands, kernel.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
                        static_cast<std::uint32_t>(4 * step.push.size()), step.push.data());
   }
-  vkCmdDispatch(commands, pass.groups[0], pass.groups[1], pass.groups[2]);
+  if (counts) {
+    vkCmdDispatchIndirect(commands, counts->buffer, counts->offset + step.counts_offset);
+  } else {
+    vkCmdDispatch(commands, pass.groups[0], pass.groups[1], pass.groups[2]);
+  }
   if (device.end_label) device.end_label(commands);
 }
 
@@ -232,14 +237,18 @@ Status Pipeline::record(VkCommandBuffer commands, const std::vector<Binding>& bi
   stamp(0);
   const VkBufferView* view = prepared.views.data();
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
+    const bool counted = state.steps[i].counted && options.indirect;
     if (i > 0) {
+      // A later write of the counts waits for their reading too: DRAW_INDIRECT comes before COMPUTE_SHADER.
       barrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-              VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+              VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | (counted ? VK_ACCESS_INDIRECT_COMMAND_READ_BIT : 0),
+              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | (counted ? VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT : 0));
     }
     const VkDescriptorSet set = prepared.sets.empty() ? VK_NULL_HANDLE : prepared.sets[i];
     const Writes writes(state.steps[i], resolved, view, set);
     if (set != VK_NULL_HANDLE) vkUpdateDescriptorSets(device.adopt.device, writes.size(), writes.data(), 0, nullptr);
-    record_step(commands, device, state.plan.passes[i], state.steps[i], writes, set);
+    record_step(commands, device, state.plan.passes[i], state.steps[i], writes, set,
+                counted ? resolved[state.steps[i].counts_need] : nullptr);
     stamp(i + 1);
   }
   if (options.texel_views) {

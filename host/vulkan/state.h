@@ -46,6 +46,9 @@ struct Step {
   const Kernel* kernel = nullptr;
   std::vector<Descriptor> descriptors;
   std::vector<std::uint32_t> push;  // parameters, as the push constants hold them
+  bool counted = false;             // its number of workgroups is found in needs[counts_need]
+  std::size_t counts_need = 0;
+  VkDeviceSize counts_offset = 0;   // added to the caller's
 };
 
 /// What a caller must bind: the resources of the plan in order, then `scratch`.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -84,6 +85,15 @@ struct Slot {
   int index = 0;  // into resources, scratch, or tables
 };
 
+/// Where a pass finds its number of workgroups: three u32 (x, y, z) from element `first` of a buffer that an earlier pass
+/// of the plan wrote, none above the pass's `groups`. Vulkan dispatches indirectly, and so does C++; OpenCL, which cannot,
+/// launches `groups`. A kernel whose loop is `for (i = invocation_x(); i < length; i += stride)`, with `stride` the
+/// invocations of `groups`, does every item once under either.
+struct Counts {
+  Slot slot;
+  std::size_t first = 0;
+};
+
 /// One dispatch.
 struct Pass {
   const Module* module = nullptr;
@@ -92,7 +102,8 @@ struct Pass {
   std::vector<double> parameters;        // in the order of the module's parameters
   std::vector<double> constants;         // in the order of the module's constants
   std::array<std::uint32_t, 3> workgroup{1, 1, 1};  // invocations
-  std::array<std::uint32_t, 3> groups{1, 1, 1};     // workgroups
+  std::array<std::uint32_t, 3> groups{1, 1, 1};     // workgroups; with `counts` the most there may be
+  std::optional<Counts> counts;                     // where the number of workgroups is found as the plan runs
 };
 
 /// Everything needed to run one call of a kernel. Passes run in order, each seeing what the one before wrote.

@@ -51,6 +51,9 @@ struct Record {
   VkQueryPool timestamps = VK_NULL_HANDLE;  // optional: passes + 1 queries from first_query on, already reset
   std::uint32_t first_query = 0;
   bool tables_current = false;              // scratch still holds this pipeline's tables from an earlier record
+  /// The buffers that counts() names were made with the usage INDIRECT_BUFFER (Vulkan cannot be asked): passes along a list
+  /// whose length is found on the device are dispatched with no more workgroups than it needs. False: by a fixed number.
+  bool indirect = false;
   /// Needed where reads_texels(): views that record makes are appended; the caller destroys them once the commands ran.
   std::vector<VkBufferView>* texel_views = nullptr;
 };
@@ -70,10 +73,15 @@ class Pipeline {
   /// of f32x2 need the device feature shaderStorageImageExtendedFormats.)
   bool reads_texels() const;
 
+  /// What holds numbers of workgroups that one pass writes and a later one is dispatched by: names of resources, or
+  /// `scratch`. Give these buffers the usage INDIRECT_BUFFER and set Record::indirect. Empty: no pass is of that kind.
+  std::vector<std::string> counts() const;
+
   /// Records the plan's passes with the barriers between them; none at the edges. `scratch` needs the usages
   /// STORAGE_BUFFER, UNIFORM_BUFFER and TRANSFER_DST. What the caller's barriers must cover: resources are read and
   /// written in COMPUTE_SHADER by SHADER_READ and SHADER_WRITE; scratch moreover in TRANSFER by TRANSFER_WRITE (tables)
-  /// and in COMPUTE_SHADER by UNIFORM_READ. Between two records that share scratch, or one of which writes what the
+  /// and in COMPUTE_SHADER by UNIFORM_READ. (Counts are read in DRAW_INDIRECT only after this record wrote them, so that
+  /// they ask for nothing of the caller.) Between two records that share scratch, or one of which writes what the
   /// other uses, one barrier from COMPUTE_SHADER with SHADER_WRITE to COMPUTE_SHADER and TRANSFER with SHADER_READ,
   /// SHADER_WRITE, UNIFORM_READ and TRANSFER_WRITE is enough. Binds a compute pipeline, its descriptors and push
   /// constants; other state of the command buffer stays. Errors: invalid_argument, out_of_memory, before anything is

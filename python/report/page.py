@@ -4,6 +4,7 @@ import base64
 import html
 
 import rows
+import takeover
 from rows import number
 
 STYLE = """
@@ -146,6 +147,13 @@ def kernel_section(report, kernel, pictures, figures, folder):
                 f'<figcaption>{esc(shot["caption"])}</figcaption></figure>'
             )
         parts.append("</div>")
+    if kernel == "gaussian_blur":
+        head, lines = takeover.table(report)
+        parts.append(
+            "<h3>Which variant at which σ</h3><p class=note>The cheapest variant whose error stays within the bound, and "
+            "its time in ms. ≈: the quartiles do not tell them apart. –: no setting measured is so exact.</p>"
+        )
+        parts.append(table(head, [(line, line) for line in lines]))
     parts.append("<h3>Settings</h3>")
     for device in dict.fromkeys(row["device"] for row in points):
         here = [row for row in points if row["device"] == device]

@@ -236,10 +236,10 @@ def panel(axis, numbered, colours, markers):
             zorder=3,
         )
         if on:
-            frontiers.setdefault(receiver(row), []).append((time, error))
+            frontiers.setdefault(receiver(row), []).append(row)
     for (key, *_), points in frontiers.items():
-        points.sort()
-        axis.plot(*zip(*points), color=colours[key], lw=0.9, alpha=0.7, zorder=2)
+        line = [(rows.total_time(row), max(rows.total_error(row), FLOOR)) for row in rows.frontier_line(points)]
+        axis.plot(*zip(*line), color=colours[key], lw=0.9, alpha=0.7, zorder=2)
 
 
 def titled(figure, points, label=None):

@@ -39,6 +39,20 @@ def best_of(mine):
     return best
 
 
+def frontier_line(points):
+    """Those of the frontier's settings that a line passes through, from fast and coarse to slow and exact: a setting that a
+    more exact one is as fast as, as far as quartiles tell, is left out, so that the line never turns back.
+    """
+    def beats(other, row):
+        a, b = total_error(other), total_error(row)
+        if a == b:
+            return (total_time(other), id(other)) < (total_time(row), id(row))
+        return a < b and total_time(other, "q1") <= total_time(row, "q3")
+
+    kept = [row for row in points if not any(beats(other, row) for other in points if other is not row)]
+    return sorted(kept, key=total_time)
+
+
 def number(value, digits=3):
     if value is None:
         return "–"

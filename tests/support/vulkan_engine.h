@@ -127,9 +127,21 @@ class Bound {
     return *std::find_if(bindings.begin(), bindings.end(), [&](const Binding& b) { return b.name == name; });
   }
 
+  /// Values into a buffer, between its margins.
+  template <class T>
+  void upload(const std::string& name, const std::vector<T>& values) {
+    for (const auto& memory : memories_) {
+      if (memory->resource.name != name) continue;
+      std::vector<std::uint8_t> bytes(memory->bytes, guard_byte);
+      std::memcpy(bytes.data() + margin, values.data(), sizeof(T) * values.size());
+      EXPECT_TRUE(memory->upload(bytes.data(), bytes.size()).ok());
+    }
+  }
+
   /// Records with options of its own, submits and waits.
-  Status run(const Pipeline& pipeline) const {
+  Status run(const Pipeline& pipeline, bool indirect = false) const {
     Options options(engine_, pipeline);
+    options.record.indirect = indirect;
     Status status;
     const Status ran = engine_.machine->once(
         [&](VkCommandBuffer commands) { status = pipeline.record(commands, bindings, options.record); });
