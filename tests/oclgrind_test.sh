@@ -32,4 +32,5 @@ check voxel_inject_test 'VoxelInject.SameBits*:VoxelInject.AWindow*'
 check voxel_inject_map_test 'VoxelInjectMap.BadTexels*:VoxelInjectMap.LightsAndAMap*:VoxelInjectMap.WhereAMap*'
 check cone_trace_test 'ConeTraceSmall*:ConeTrace.TurnedSets*:ConeTrace.ASky*'
 check cone_trace_clipmap_test 'ConeTraceClipmap.AMoved*'
+check probe_irradiance_test 'ProbeIrradiance.ProbesThatAreNotListed*:ProbeIrradiance.BordersHold*'
 exit $failed
