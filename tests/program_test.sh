@@ -309,6 +309,19 @@ for device in $devices; do
   expect 0 'render cone' "${cone[@]}" --device "$device" -o "cone_$device.npy"
   same cone_first.npy "cone_$device.npy"
 done
+probe=("$luxel" render --method probe --size 32x24 --scene cornell --probes 3 --probe-size 16 --probe-bounces 2)
+expect 2 '--probes: 0 is not understood; expected N or nx,ny,nz' "${probe[@]:0:8}" --probes 0 -o probe.npy
+expect 2 '--probe-size: 15 is out of range' "${probe[@]:0:8}" --probe-size 15 -o probe.npy
+expect 2 'cpu:double is not taken' "${probe[@]}" --device cpu:double -o probe.npy
+expect 0 '^render probe cornell \(50 triangles\) 32x24, all; wrote probe_first\.npy$' "${probe[@]}" --device cpu -o probe_first.npy
+grep -Eq '^  update: light on what is seen .* irradiance and distances .* probes lit by probes ' out.txt || fail "render --method probe prints no update times" "$(cat out.txt)"
+grep -Eq '3x3x3 probes, [0-9]+ inside geometry' out.txt || fail "render --method probe does not say what it made" "$(cat out.txt)"
+for device in $devices; do
+  expect 0 'render probe' "${probe[@]}" --device "$device" -o "probe_$device.npy"
+  same probe_first.npy "probe_$device.npy"
+done
+expect 0 'render probe' "${probe[@]}" --device cpu --unfiltered -o probe_unfiltered.npy
+cmp -s probe_first.npy probe_unfiltered.npy && fail "--unfiltered changes nothing"
 python <<'END'
 shape, total = read('box.npy')
 assert shape == (9, 16, 3)

@@ -225,7 +225,8 @@ Status against_rays(Session& session) {
   if (!found) return found.status();
   const Stage& stage = *found.value();
   const int width = stage.seen.width, height = stage.seen.height;
-  constexpr int size = 128, ratio = 16, many = 64;
+  constexpr int ratio = 16, many = 64;
+  const int size = quick ? 64 : 128;
   const auto made = world_of(session, *stage.rays, stage.scene.camera, width, height, 4, size);
   if (!made) return made.status();
   World& w = *made.value();
