@@ -220,6 +220,6 @@ KERNEL(lpv_propagate) {
     }
 #if ACTIVE
     store(reaches, flag, before || some != 0u ? 1u : 0u);
-    if (params.error > 0.0f && most > load(state, 2 + params.step)) atomic_max(state, 2 + params.step, most);
+    if (params.error > 0.0f && most != 0u) atomic_max(state, 2 + params.step, most);
 #endif
 }

@@ -15,5 +15,5 @@ KERNEL(lpv_reach) {
         }
     }
     store(reached, (z * params.height + y) * ((params.width + PIXELS - 1) / PIXELS) + invocation_x(), some != 0u ? 1u : 0u);
-    if (most > load(state, 1)) atomic_max(state, 1, most);
+    if (most != 0u) atomic_max(state, 1, most);
 }
