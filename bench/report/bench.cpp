@@ -176,6 +176,9 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
     for (const BenchSetting& setting : hiz_ssr_settings(context->profile()))
       line("hiz_ssr " + setting.name, setting);
   if (wanted.wants("light_propagation"))
+    for (const BenchSetting& setting : light_propagation_settings(context->profile()))
+      line("light_propagation " + setting.name, setting);
+  if (wanted.wants("light_propagation"))
     for (const BenchSetting& setting : lpv_inject_settings(context->profile())) line(setting.name, setting);
   fmt::print("\n");
   return status;

@@ -47,6 +47,9 @@ std::vector<BenchSetting> hiz_ssr_settings(const Profile& profile);
 /// Main settings of lpv_inject, lpv_inject_geometry and lpv_sample: 2^18 lights, surfels and receivers in 32^3 and 64^3.
 std::vector<BenchSetting> lpv_inject_settings(const Profile& profile);
 
+/// Main settings of lpv_propagate: 8 steps in 32^3 and 64^3.
+std::vector<BenchSetting> light_propagation_settings(const Profile& profile);
+
 /// Prints a table on stdout. Returns the exit status: 0, or 1 where a setting failed.
 int bench_device(const std::shared_ptr<Context>& context, const std::vector<std::string>& kernels,
                  const std::vector<std::pair<int, int>>& sizes);

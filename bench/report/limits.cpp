@@ -86,18 +86,11 @@ Status measure_arithmetic(Session& session) {
 Status measure_triad(Session& session) {
   const int width = 1024, height = 1024;
   const Profile& profile = session.context().profile();
-  const int lanes = lanes_of(profile, Format::f32x4);
-  const std::size_t pixels = static_cast<std::size_t>(width) * height;
-  auto run = cases::Run::make(
-      session.context(),
-      one_pass("limit_triad", module_in(built_in::limit_triad, profile.texels ? "texels_f32x4" : "f32x4"),
-               {buffer("b", Format::f32x4, pixels, false), buffer("c", Format::f32x4, pixels, false),
-                buffer("a", Format::f32x4, pixels, true)},
-               {width, height}, {static_cast<double>(lanes)}, static_cast<std::uint32_t>(width / (lanes / 4)), height,
-               profile.pixels.workgroup));
+  auto run = cases::Run::make(session.context(), triad_plan(width, height, profile));
   if (!run) return run.status();
+  const std::vector<double> ones(static_cast<std::size_t>(width) * height * 4, 1.0);
   for (const char* name : {"b", "c"})
-    if (Status status = run.value().write(name, std::vector<double>(pixels * 4, 1.0)); !status) return status;
+    if (Status status = run.value().write(name, ones); !status) return status;
   const Result<Sample> ms = session.time(run.value(), "limit triad");
   if (!ms) return ms.status();
   session.note("limits", entry("triad", "1024x1024", 16, profile.texels ? "texel buffer" : "buffer", ms.value(),
@@ -134,6 +127,17 @@ std::vector<CopyForm> copy_forms(Session& session) {
           {"buffer, 4 pieces", false, 4},
           {"texel buffer", true, 1},
           {"texel buffer, 4 pieces", true, 4}};
+}
+
+Result<Plan> triad_plan(int width, int height, const Profile& profile) {
+  const int lanes = lanes_of(profile, Format::f32x4);
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  return one_pass("limit_triad", module_in(built_in::limit_triad, profile.texels ? "texels_f32x4" : "f32x4"),
+                  {buffer("b", Format::f32x4, pixels, false), buffer("c", Format::f32x4, pixels, false),
+                   buffer("a", Format::f32x4, pixels, true)},
+                  {static_cast<double>(width), static_cast<double>(height)}, {static_cast<double>(lanes)},
+                  static_cast<std::uint32_t>(width / (lanes / 4)), static_cast<std::uint32_t>(height),
+                  profile.pixels.workgroup);
 }
 
 Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, const Profile& profile) {

@@ -26,6 +26,9 @@ std::vector<CopyForm> copy_forms(Session& session);
 /// Plan of a copy. Resources src and dst. Errors: invalid_argument.
 Result<Plan> copy_plan(int width, int height, int bytes, const CopyForm& form, const Profile& profile);
 
+/// Plan of a = b + s c over width x height pixels f32x4; width a multiple of 4. Resources b, c, a.
+Result<Plan> triad_plan(int width, int height, const Profile& profile);
+
 /// Plan of `looks` trilinear look-ups by each of width x height invocations along lines through a volume of side^3:
 /// resources volume (a buffer, or with `sampled` a 3-D image) and dst. `step`: voxels from look-up to look-up.
 struct SampleForm {

@@ -10,6 +10,7 @@
 #include "bench/report/limits.h"
 #include "bench/report/lpv_scenes.h"
 #include "bench/report/mips.h"
+#include "bench/report/propagation.h"
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
@@ -21,6 +22,7 @@
 #include "tests/cases/cone_trace_cases.h"
 #include "tests/cases/gaussian_blur_cases.h"
 #include "tests/cases/hiz_ssr_cases.h"
+#include "tests/cases/light_propagation_cases.h"
 #include "tests/cases/lpv_cases.h"
 #include "tests/cases/mip_build_cases.h"
 #include "tests/cases/voxel_inject_cases.h"
@@ -98,6 +100,11 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
   }
   if (settings.wants("light_propagation")) {
+    append(jobs, propagation_grid(session));
+    append(jobs, propagation_left_out(session));
+    append(jobs, propagation_reproduction(session));
+    append(jobs, propagation_peers(session));
+    append(jobs, stability_jobs(session, cases::light_propagation_cases()));
     append(jobs, lpv_scene_grid(session, missing));
     append(jobs, lpv_scene_left_out(session));
     append(jobs, stability_jobs(session, cases::lpv_inject_cases()));
