@@ -322,6 +322,22 @@ for device in $devices; do
 done
 expect 0 'render probe' "${probe[@]}" --device cpu --unfiltered -o probe_unfiltered.npy
 cmp -s probe_first.npy probe_unfiltered.npy && fail "--unfiltered changes nothing"
+
+lpv=("$luxel" render --method lpv --size 32x24 --scene cornell --cells 8)
+expect 2 '--cells: 3 is out of range' "${lpv[@]:0:8}" --cells 3 -o lpv.npy
+expect 2 '--lobes: round is not known; expected linear, clamp' "${lpv[@]}" --lobes round -o lpv.npy
+expect 2 'cpu:double is not taken' "${lpv[@]}" --device cpu:double -o lpv.npy
+expect 0 '^render lpv cornell \(50 triangles\) 32x24, all; wrote lpv_first\.npy$' "${lpv[@]}" --device cpu -o lpv_first.npy
+grep -Eq '^  update: maps .* lpv_inject .* lpv_propagate ' out.txt || fail "render --method lpv prints no update times" "$(cat out.txt)"
+grep -Eq '8x8x8 cells of .* 8 steps, blocked by all surfaces' out.txt || fail "render --method lpv does not say what it made" "$(cat out.txt)"
+for device in $devices; do
+  expect 0 'render lpv' "${lpv[@]}" --device "$device" -o "lpv_$device.npy"
+  same lpv_first.npy "lpv_$device.npy"
+done
+for change in '--blockers none' '--lobes clamp' '--steps 4' '--bands 3' '--damping 1' '--lpv-filter 0.25' '--cascades 2'; do
+  expect 0 'render lpv' "${lpv[@]}" --device cpu $change -o lpv_changed.npy
+  cmp -s lpv_first.npy lpv_changed.npy && fail "$change changes nothing"
+done
 python <<'END'
 shape, total = read('box.npy')
 assert shape == (9, 16, 3)
