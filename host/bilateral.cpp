@@ -94,6 +94,9 @@ Status validate(const BilateralParams& p) {
     LUXEL_CHECK(check_range("BilateralParams.sigma_luminance", p.sigma_luminance, 1e-6, 1e6));
     LUXEL_CHECK(check_range("BilateralParams.epsilon", p.epsilon, 1e-30, 1e30));
   }
+  LUXEL_CHECK(check_range("BilateralParams.variance_target", p.variance_target, 0.0, 1e30));
+  if (p.variance_target > 0 && !p.luminance)
+    return out_of_range("BilateralParams.variance_target", p.variance_target, "0 without luminance");
   if (p.carry_variance && !(atrous && p.luminance))
     return out_of_range("BilateralParams.carry_variance", "true", "false but for variant atrous with luminance");
   LUXEL_CHECK(check_range("BilateralParams.border", static_cast<int>(p.border), 0, 3));
@@ -377,6 +380,7 @@ class Builder {
                    {"first", luminance_plane_},
                    {"variance", variance},
                    {"sigma", p_.sigma_luminance},
+                   {"target", p_.variance_target},
                    {"epsilon", p_.epsilon}},
                   {{"COLOURS", colour_count_}, {"BORDER", static_cast<int>(p_.border)}},
                   {{"colours", colours}, {"variances", guides_}, {"planes", guides_}});

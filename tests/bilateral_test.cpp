@@ -195,6 +195,13 @@ TEST(BilateralValidate, NamesFieldValueAndRange) {
          p.luminance = true;
          p.epsilon = 0;
        }},
+      {"BilateralParams.variance_target is 0.1; expected 0 without luminance",
+       [](auto& p) { p.variance_target = 0.1; }},
+      {"BilateralParams.variance_target is -1; expected 0..1e+30",
+       [](auto& p) {
+         p.luminance = true;
+         p.variance_target = -1;
+       }},
       {"BilateralParams.carry_variance is true; expected false but for variant atrous with luminance",
        [](auto& p) { p.carry_variance = true; }},
       {"BilateralParams.border is 9; expected 0..3", [](auto& p) { p.border = static_cast<Border>(9); }},

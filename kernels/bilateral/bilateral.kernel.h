@@ -73,7 +73,18 @@ KERNEL(bilateral) {
         }
     }
 
-    for (int j = -ROWS; j < ROWS + BLOCK; ++j) {
+    // Where nothing can weigh beside the centre (sky, noise below its target), no tap is read.
+    bool idle = DEPTH != 0 || LUMINANCE != 0;
+    if (DEPTH != 0 || LUMINANCE != 0) {
+        UNROLL for (int b = 0; b < BLOCK; ++b)
+            UNROLL for (int k = 0; k < PIXELS; ++k) {
+                const float z = DEPTH != 0 ? get_pixel(depth[b * 4], k) : 0.0f;
+                const float f = LUMINANCE != 0 ? get_pixel(luminance[b * 2 + 1], k) : 0.0f;
+                idle = idle && !(z == z && f == f);
+            }
+    }
+    const int end = idle ? -ROWS : ROWS + BLOCK;
+    for (int j = -ROWS; j < end; ++j) {
         const int down = first_of(j);
         if (BORDER == BORDER_ZERO && (y + down < 0 || y + down >= params.height)) continue;
         const int row = border_index(BORDER, y + down, params.height);

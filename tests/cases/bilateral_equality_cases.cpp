@@ -123,6 +123,7 @@ std::vector<Case> bilateral_cases() {
   add_bilateral_value_cases(cases);
   add_bilateral_guide_cases(cases);
   add_bilateral_equality_cases(cases);
+  add_bilateral_left_out_cases(cases);
   for (Case& c : cases) c.kernel = "bilateral";
   add_bilateral_variant_cases(cases);
   return cases;

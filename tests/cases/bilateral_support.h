@@ -38,6 +38,7 @@ void add_bilateral_formula_cases(std::vector<Case>& cases);
 void add_bilateral_value_cases(std::vector<Case>& cases);
 void add_bilateral_guide_cases(std::vector<Case>& cases);
 void add_bilateral_equality_cases(std::vector<Case>& cases);
+void add_bilateral_left_out_cases(std::vector<Case>& cases);
 void add_bilateral_variant_cases(std::vector<Case>& cases);  // with the kernels beside: each names its kernel
 
 }  // namespace luxel::cases
