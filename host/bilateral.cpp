@@ -94,6 +94,9 @@ Status validate(const BilateralParams& p) {
     LUXEL_CHECK(check_range("BilateralParams.sigma_luminance", p.sigma_luminance, 1e-6, 1e6));
     LUXEL_CHECK(check_range("BilateralParams.epsilon", p.epsilon, 1e-30, 1e30));
   }
+  LUXEL_CHECK(check_range("BilateralParams.variance_target", p.variance_target, 0.0, 1e30));
+  if (p.variance_target > 0 && !p.luminance)
+    return out_of_range("BilateralParams.variance_target", p.variance_target, "0 without luminance");
   if (p.carry_variance && !(atrous && p.luminance))
     return out_of_range("BilateralParams.carry_variance", "true", "false but for variant atrous with luminance");
   LUXEL_CHECK(check_range("BilateralParams.border", static_cast<int>(p.border), 0, 3));
@@ -125,6 +128,10 @@ class Builder {
 
   Result<Plan> build() {
     layout();
+    if (packs()) {
+      packed();
+      return std::move(planner_).finish();
+    }
     resources();
     prepare();
     if (p_.variant == BilateralVariant::atrous) {
@@ -157,6 +164,10 @@ class Builder {
     return radius_of(p_) * radius_of(p_) / (p_.step * p_.step);
   }
 
+  double range_factor() const {
+    return range_ == RangeTerm::off ? 0 : std::min(0.5 * log2_e / (p_.sigma_range * p_.sigma_range), 1e30);
+  }
+
   // Taps of one pass along an axis: all of them, or with pairs in the outer half.
   int inner() const { return p_.adaptive ? (taps_ + 1) / 2 : 0; }
 
@@ -169,7 +180,8 @@ class Builder {
     depth_ = taps_ > 0 ? p_.depth : DepthTerm::off;
     normal_ = taps_ > 0 && p_.normal;
     luminance_ = taps_ > 0 && p_.luminance;
-    bias_ = taps_ > 0 && range_ != RangeTerm::self;
+    // Pixels that are not finite are told by whichever plane weighs anyway.
+    bias_ = taps_ > 0 && range_ == RangeTerm::off && depth_ == DepthTerm::off && !normal_;
     const int widest = p_.variant == BilateralVariant::atrous ? taps_ << (p_.levels - 1) : taps_ * p_.step + 1;
     pad_ = taps_ == 0 ? 0 : widest;
     pitch_ = (p_.width + 15) / 16 * 16 + 2 * pad_;
@@ -186,6 +198,58 @@ class Builder {
     luminance_plane_ = take(luminance_, 2);
     variance_plane_ = take(luminance_, 2);
     guide_planes_ = at;
+  }
+
+  // Whole texels, and a window unrolled by constants, on drivers that are fast so.
+  bool packs() const {
+    return profile_.texels && p_.variant == BilateralVariant::direct && p_.step == 1 && taps_ > 0 &&
+           taps_ <= std::min(profile_.pixels.unroll, 5) && channels(p_.format) == 4 && p_.border != Border::zero &&
+           range_ != RangeTerm::off && (range_ == RangeTerm::self || channels(p_.guide_format) == 4) &&
+           depth_ == DepthTerm::off && !normal_ && !luminance_;
+  }
+
+  void packed() {
+    images();
+    const auto texels = [&] {
+      return planner_.scratch(Format::f32x4, static_cast<std::size_t>(p_.height) * pitch_);
+    };
+    const Slot colours = texels(), guides = range_ == RangeTerm::guide ? texels() : colours;
+    const auto pack = [&](const char* label, Slot image, Format format, int stride, bool guide, Slot to) {
+      planner_.pass("bilateral_pack", name(format), label, over(pitch_, p_.height), profile_.pixels.workgroup,
+                    {{"width", p_.width},
+                     {"height", p_.height},
+                     {"src_stride", stride},
+                     {"pitch", pitch_},
+                     {"pad", pad_}},
+                    {{"BORDER", static_cast<int>(p_.border)}, {"GUIDE", guide}},
+                    {{"src", image}, {"colours", guide ? colours : image}, {"packed", to}});
+      planner_.cost(0, static_cast<double>(p_.width) * p_.height * (bytes_per_pixel(format) + (guide ? 32 : 16)));
+    };
+    count_all();
+    pack("bilateral pack", src_, p_.format, src_stride_, false, colours);
+    if (range_ == RangeTerm::guide) pack("bilateral guide", guide_, p_.guide_format, p_.width, true, guides);
+    constexpr int across = 2, down = 4;  // more take longer to compile than they save
+    planner_.pass("bilateral_packed", name(p_.format), "bilateral",
+                  over((p_.width + across - 1) / across, (p_.height + down - 1) / down), profile_.pixels.workgroup,
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"src_stride", src_stride_},
+                   {"dst_stride", dst_stride_},
+                   {"pitch", pitch_},
+                   {"pad", pad_},
+                   {"range_factor", range_factor()}},
+                  {{"RADIUS", taps_},
+                   {"REACH", reach()},
+                   {"BORDER", static_cast<int>(p_.border)},
+                   {"COLOURS", colour_count_},
+                   {"RANGE", static_cast<int>(range_)},
+                   {"L1", p_.range_norm == RangeNorm::l1},
+                   {"ACROSS", across},
+                   {"DOWN", down}},
+                  {{"colours", colours}, {"guides", guides}, {"src", src_}, {"dst", dst_}, {"spatial", window()}});
+    planner_.cost((2.0 * taps_ + 1) * (2.0 * taps_ + 1) * (27 + 3 * colour_count_) * p_.width * p_.height,
+                  static_cast<double>(p_.width) * p_.height *
+                      (2 * bytes_per_pixel(p_.format) + (range_ == RangeTerm::guide ? 32.0 : 16.0)));
   }
 
   Slot planes(int count) {
@@ -207,7 +271,7 @@ class Builder {
     return planner_.resource(r);
   }
 
-  void resources() {
+  void images() {
     src_stride_ = p_.src_stride ? p_.src_stride : p_.width;
     dst_stride_ = p_.dst_stride ? p_.dst_stride : p_.width;
     src_ = input("src", p_.format, src_stride_);
@@ -224,6 +288,10 @@ class Builder {
       counters.written = true;
       counters_ = planner_.resource(counters);
     }
+  }
+
+  void resources() {
+    images();
     colours_ = planes(colour_count_);
     guides_ = guide_planes_ > 0 ? planes(guide_planes_) : colours_;
   }
@@ -241,11 +309,10 @@ class Builder {
                    {"pitch", pitch_},
                    {"pad", pad_},
                    {"first", first},
-                   {"bias", bias_plane_},
                    {"scale", scale},
                    {"offset", offset}},
                   {{"COUNT", count}, {"BORDER", static_cast<int>(p_.border)}, {"MARK", mark}},
-                  {{"src", image}, {"planes", to}, {"biases", guides_}});
+                  {{"src", image}, {"planes", to}});
     planner_.cost(0, static_cast<double>(p_.width) * p_.height * (bytes_per_pixel(format) + 4 * count));
   }
 
@@ -263,17 +330,18 @@ class Builder {
   double normal_scale() const { return p_.normal_format == Format::unorm8x4 ? 2 : 1; }
   double normal_offset() const { return p_.normal_format == Format::unorm8x4 ? -1 : 0; }
 
-  void prepare() {
+  void count_all() {
     if (p_.count) {
       counted(src_, p_.format, src_stride_, 0, 0);
       if (range_ == RangeTerm::guide) counted(guide_, p_.guide_format, p_.width, 1, 0);
       if (depth_ != DepthTerm::off) counted(z_, Format::f32x1, p_.width, 2, 1);
       if (normal_) counted(normals_, p_.normal_format, p_.width, 3, 2, normal_scale(), normal_offset());
     }
-    split("bilateral split", src_, p_.format, src_stride_, colour_count_, colours_, 0,
-          range_ == RangeTerm::self ? 1
-          : bias_                   ? 2
-                                    : 0);
+  }
+
+  void prepare() {
+    count_all();
+    split("bilateral split", src_, p_.format, src_stride_, colour_count_, colours_, 0, taps_ > 0);
     if (range_ == RangeTerm::guide)
       split("bilateral guide", guide_, p_.guide_format, p_.width, guide_count_, guides_, guide_plane_, 0);
     if (normal_)
@@ -287,8 +355,20 @@ class Builder {
           {{"z", z_}, {"planes", guides_}});
       planner_.cost(12.0 * p_.width * p_.height, 16.0 * p_.width * p_.height);
     }
+    if (taps_ > 0 && range_ != RangeTerm::self)
+      mark(range_ == RangeTerm::guide ? guide_plane_
+           : depth_ != DepthTerm::off ? depth_plane_
+           : normal_                  ? normal_plane_
+                                      : bias_plane_);
     if (luminance_) split("bilateral variance", variance_, Format::f32x1, p_.width, 1, guides_, variance_plane_, 0);
     if (luminance_ && p_.variant != BilateralVariant::atrous) weigh_luminance(colours_, variance_plane_);
+  }
+
+  void mark(int plane) {
+    planner_.pass("bilateral_mark", "f32x1", "bilateral mark", over(pitch_, p_.height), workgroup_,
+                  {{"pitch", pitch_}, {"height", p_.height}, {"first", plane}}, {{"BIAS", bias_}},
+                  {{"colours", colours_}, {"planes", guides_}});
+    planner_.cost(0, (bias_ ? 8.0 : 4.0) * p_.width * p_.height);
   }
 
   void weigh_luminance(Slot colours, int variance) {
@@ -300,6 +380,7 @@ class Builder {
                    {"first", luminance_plane_},
                    {"variance", variance},
                    {"sigma", p_.sigma_luminance},
+                   {"target", p_.variance_target},
                    {"epsilon", p_.epsilon}},
                   {{"COLOURS", colour_count_}, {"BORDER", static_cast<int>(p_.border)}},
                   {{"colours", colours}, {"variances", guides_}, {"planes", guides_}});
@@ -330,12 +411,10 @@ class Builder {
   void filter(const Filter& f) {
     const Shape& shape = profile_.pixels;
     const int lanes = std::max(shape.lanes, 1);
-    // Rows of results share their loads.
-    const int block = f.rows > 0 && f.adaptive == 0 ? std::min(profile_.columns.block, 4) : 1;
+    // Rows of results share their loads, where loads are what takes the time.
+    const int block = f.rows > 0 && f.adaptive == 0 && lanes == 1 ? std::min(profile_.columns.block, 4) : 1;
     const int along = (p_.height + f.step * block - 1) / (f.step * block) * f.step;
     const std::string module = std::string(profile_.texels ? "texels_" : "") + (f.last ? name(p_.format) : "planes");
-    const double range_factor =
-        range_ == RangeTerm::off ? 0 : std::min(0.5 * log2_e / (p_.sigma_range * p_.sigma_range), 1e30);
     planner_.pass("bilateral", module, "bilateral", over((p_.width + lanes - 1) / lanes, along), shape.workgroup,
                   {{"width", p_.width},
                    {"height", p_.height},
@@ -351,7 +430,7 @@ class Builder {
                    {"variance", f.variance},
                    {"carried_stride", f.carried_stride},
                    {"carried_at", f.carried_at},
-                   {"range_factor", range_factor},
+                   {"range_factor", range_factor()},
                    {"normal_power", p_.sigma_normal},
                    {"depth_scale", p_.depth == DepthTerm::plane ? p_.sigma_depth * p_.footprint : p_.sigma_depth}},
                   {{"COLUMNS", f.columns},

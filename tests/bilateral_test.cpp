@@ -86,12 +86,12 @@ TEST(BilateralPlan, BindsAndRunsOnlyWhatTermsAskFor) {
     return names + std::to_string(plan.value().passes.size());
   };
   const auto nothing = [](auto&) {};
-  EXPECT_EQ(made("", nothing), "src dst 2");
+  EXPECT_EQ(made("", nothing), "src dst 3");
   EXPECT_EQ(made("c", nothing), "src dst 2");
-  EXPECT_EQ(made("g", nothing), "src dst guide 3");
+  EXPECT_EQ(made("g", nothing), "src dst guide 4");
   EXPECT_EQ(made("cdnl", nothing), "src dst depth normals variance 6");
   EXPECT_EQ(made("gdnl", [](auto& p) { p.sigma_range = 0; }), "src dst 2") << "the input: no term is looked at";
-  EXPECT_EQ(made("g", [](auto& p) { p.sigma_range = HUGE_VAL; }), "src dst 2") << "a term that changes nothing";
+  EXPECT_EQ(made("g", [](auto& p) { p.sigma_range = HUGE_VAL; }), "src dst 3") << "a term that changes nothing";
   EXPECT_EQ(made("c", [](auto& p) { p.variant = BilateralVariant::separable; }), "src dst 3");
   EXPECT_EQ(made("c", [](auto& p) { p.count = true; }), "src dst counters 3");
 }
@@ -194,6 +194,13 @@ TEST(BilateralValidate, NamesFieldValueAndRange) {
        [](auto& p) {
          p.luminance = true;
          p.epsilon = 0;
+       }},
+      {"BilateralParams.variance_target is 0.1; expected 0 without luminance",
+       [](auto& p) { p.variance_target = 0.1; }},
+      {"BilateralParams.variance_target is -1; expected 0..1e+30",
+       [](auto& p) {
+         p.luminance = true;
+         p.variance_target = -1;
        }},
       {"BilateralParams.carry_variance is true; expected false but for variant atrous with luminance",
        [](auto& p) { p.carry_variance = true; }},

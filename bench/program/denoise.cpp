@@ -15,7 +15,7 @@ namespace {
 
 struct Arguments {
   std::string color, albedo, normal, depth, out, device;
-  double fov = 45, sigma_depth = 1, sigma_normal = 64, sigma_luminance = 6, sigma_albedo = 0.02, k = 4;
+  double fov = 45, sigma_depth = 1, sigma_normal = 64, sigma_luminance = 6, sigma_albedo = 0.02, target = 0, k = 4;
   int levels = 5;
   bool no_clamp = false;
 };
@@ -70,6 +70,7 @@ int run(const Arguments& a) {
   p.sigma_luminance = a.sigma_luminance;
   p.sigma_albedo = a.sigma_albedo;
   p.levels = a.levels;
+  p.variance_target = a.target;
   p.clamp = !a.no_clamp;
   p.k = a.k;
   const auto opened = open_device(a.device);
@@ -115,6 +116,8 @@ void add_denoise(CLI::App& app, int& exit_status) {
   number("--sigma-normal", a->sigma_normal, 0.01, 4096, "power of the cosine between normals");
   number("--sigma-luminance", a->sigma_luminance, 1e-6, 1e6, "standard deviations");
   number("--sigma-albedo", a->sigma_albedo, 0, 1e6, "differences of albedo that weigh; 0: none do");
+  number("--variance-target", a->target, 0, 1e30,
+         "squared luminance without albedo: pixels whose variance falls below are not filtered further");
   number("--k", a->k, 0, 1e6, "standard deviations of the neighbours beyond which a pixel is clamped");
   command->add_option("--levels", a->levels, "of the filter: 1..6; default 5")
       ->check(CLI::Range(1, 6))

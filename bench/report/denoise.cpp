@@ -87,6 +87,7 @@ Result<Denoised> denoise(Context& context, const NoisyRender& render, const Deno
   filter.range = RangeTerm::off;
   filter.luminance = true;
   filter.sigma_luminance = params.sigma_luminance;
+  filter.variance_target = params.variance_target;
   std::vector<std::pair<std::string, const std::vector<double>*>> inputs{{"src", &light},
                                                                          {"variance", &spread.value()}};
   if (!render.depth.empty()) {

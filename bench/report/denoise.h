@@ -23,6 +23,7 @@ struct DenoiseParams {
   double footprint = 0.001;  // width of a pixel at depth 1
   double sigma_depth = 1, sigma_normal = 64, sigma_luminance = 6;
   double sigma_albedo = 0.02;  // differences of albedo weigh too; 0: they do not
+  double variance_target = 0;  // as BilateralParams; of light without albedo
   int levels = 5;
   bool clamp = true;  // outlier_clamp first
   double k = 4;       // its deviations

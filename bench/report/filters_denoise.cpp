@@ -198,7 +198,10 @@ Status measure_denoise(Session& session, const Render& r, const DenoiseParams& p
       });
   if (!errors) return errors.status();
   add_noise_rows(session, "luxel denoise", {{"clamp", p.clamp}},
-                 {{"levels", p.levels}, {"sigma_luminance", p.sigma_luminance}, {"k", p.clamp ? p.k : 0}},
+                 {{"levels", p.levels},
+                  {"sigma_luminance", p.sigma_luminance},
+                  {"variance_target", p.variance_target},
+                  {"k", p.clamp ? p.k : 0}},
                  summarise(times), errors.value(), nullptr);
   return {};
 }
@@ -278,6 +281,14 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
                                               clamp ? "" : ", no clamp");
         jobs.push_back({label, [&session, r, p, label] { return measure_denoise(session, *r, p, label); }});
       }
+  // Levels that are not run where noise is below a target.
+  for (const double target : quick ? std::vector{0.003} : std::vector{3e-4, 0.001, 0.003, 0.01, 0.03, 0.1}) {
+    DenoiseParams p;
+    p.footprint = r->footprint;
+    p.variance_target = target;
+    const std::string label = fmt::format("bilateral denoise preset, variance target {}", target);
+    jobs.push_back({label, [&session, r, p, label] { return measure_denoise(session, *r, p, label); }});
+  }
   if (!session.is_cpu())
     for (OpenCvFilter& peer : opencv_denoisers(r->noisy, quick)) {
       const std::string label = "bilateral denoise peer " + peer.name;

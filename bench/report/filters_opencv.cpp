@@ -8,6 +8,7 @@
 
 #ifdef LUXEL_OPENCV_XIMGPROC
 #include <opencv2/core.hpp>
+#include <opencv2/core/ocl.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/ximgproc/edge_filter.hpp>
 #endif
@@ -69,6 +70,57 @@ Result<OpenCvFilter> opencv_filter(const BilateralParams& p, const std::vector<d
               p.sigma_range, p.sigma_space);
 }
 
+Result<OpenCvFilter> opencv_filter8(const BilateralParams& p, const std::vector<double>& src,
+                                    const std::string& device) {
+  if (!device.empty()) {
+    cv::ocl::setUseOpenCL(true);
+    if (!cv::ocl::haveOpenCL() || !cv::ocl::useOpenCL())
+      return Status(Code::unsupported, "OpenCV's OpenCL path finds no device here (OPENCV_OPENCL_DEVICE chooses one)");
+    const std::string used = cv::ocl::Device::getDefault().name();
+    if (device.find(used) == std::string::npos)
+      return Status(Code::unsupported, fmt::format("OpenCV's OpenCL path took the device {}, not this one", used));
+  }
+  struct State {
+    cv::Mat src, dst;
+    cv::UMat device_src, device_dst;
+  };
+  const auto state = std::make_shared<State>();
+  three(src, p.width, p.height).convertTo(state->src, CV_8UC3, 255);
+  if (!device.empty()) state->src.copyTo(state->device_src);
+  const int d = 2 * p.radius + 1;
+  const double color = 255 * p.sigma_range, space = p.sigma_space;
+  const bool opencl = !device.empty();
+  return OpenCvFilter{
+      opencl ? std::string("OpenCV bilateralFilter, 8 bits, OpenCL path on this device")
+             : fmt::format("OpenCV bilateralFilter, 8 bits, CPU, {} threads", cv::getNumThreads()),
+      CV_VERSION,
+      {{"diameter", d}, {"sigma_color", color}, {"sigma_space", space}},
+      [=]() -> Result<double> {
+        const auto begin = std::chrono::steady_clock::now();
+        try {
+          if (opencl) {
+            cv::bilateralFilter(state->device_src, state->device_dst, d, color, space, cv::BORDER_REPLICATE);
+            cv::ocl::finish();
+          } else {
+            cv::bilateralFilter(state->src, state->dst, d, color, space, cv::BORDER_REPLICATE);
+          }
+        } catch (const cv::Exception& error) {
+          return Status(Code::unsupported, std::string("OpenCV: ") + error.what());
+        }
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+      },
+      [=] {
+        const cv::Mat out = opencl ? state->device_dst.getMat(cv::ACCESS_READ).clone() : state->dst;
+        std::vector<double> values;
+        const unsigned char* from = out.ptr<unsigned char>();
+        for (std::size_t i = 0; i < out.total(); ++i) {
+          for (int c = 0; c < 3; ++c) values.push_back(*from++ / 255.0);
+          values.push_back(0);
+        }
+        return values;
+      }};
+}
+
 std::vector<OpenCvFilter> opencv_denoisers(const NoisyRender& render, bool quick) {
   const cv::Mat src = three(without_albedo(render, render.color), render.width, render.height);
   std::vector<double> guide = render.normals;
@@ -94,6 +146,10 @@ std::vector<OpenCvFilter> opencv_denoisers(const NoisyRender& render, bool quick
 Result<OpenCvFilter> opencv_filter(const BilateralParams&, const std::vector<double>&, const std::vector<double>&) {
   return Status(Code::unsupported,
                 "this build has no OpenCV ximgproc (Debian: apt-get install libopencv-contrib-dev, then build again)");
+}
+
+Result<OpenCvFilter> opencv_filter8(const BilateralParams& p, const std::vector<double>& src, const std::string&) {
+  return opencv_filter(p, src, {});
 }
 
 std::vector<OpenCvFilter> opencv_denoisers(const NoisyRender&, bool) { return {}; }

@@ -23,6 +23,11 @@ struct OpenCvFilter {
 Result<OpenCvFilter> opencv_filter(const BilateralParams& params, const std::vector<double>& src,
                                    const std::vector<double>& guide);
 
+/// bilateralFilter of three channels of 8 bits, values 0..1; through OpenCV's OpenCL path on the device whose name is part of
+/// `device`, or by the CPU where `device` is empty. Errors: unsupported, also where OpenCV took another device.
+Result<OpenCvFilter> opencv_filter8(const BilateralParams& params, const std::vector<double>& src,
+                                    const std::string& device);
+
 /// Filters of light without albedo, at the parameters that leave least relmse_pixel over all pixels on
 /// gbuffer_cycles_cbox, of diameters 9 to 33, sigma_color 0.005 to 10 and sigma_space d/5 to d; jointBilateralFilter by a guide of
 /// normals, albedo and inverse depth in its three channels, the best of four such guides.

@@ -16,13 +16,21 @@ std::vector<Job> filter_peers(Session& session) {
   if (session.is_cpu()) return {};
   const std::string profile = session.context().profile().name;
   std::vector<Job> jobs;
-  for (const bool joint : {false, true}) {
+  enum class Peer { self, joint, bits8, bits8_opencl };
+  const bool opencl = session.context().info().api == Api::opencl;
+  for (const Peer which : {Peer::self, Peer::joint, Peer::bits8, Peer::bits8_opencl}) {
+    const bool joint = which == Peer::joint, bits8 = which == Peer::bits8 || which == Peer::bits8_opencl;
+    if (which == Peer::bits8_opencl && !opencl) continue;
+    if (which == Peer::bits8 && session.settings().quick) continue;  // the other rows show all that it does
     Json goal;
-    if (profile == "pocl") goal = joint ? 5.0 : 3.5;
-    if (profile == "lavapipe") goal = joint ? 2.0 : 1.2;
+    if (profile == "pocl" && !bits8) goal = joint ? 5.0 : 3.5;
+    if (profile == "lavapipe" && !bits8) goal = joint ? 2.0 : 1.2;
     jobs.push_back(
-        {fmt::format("bilateral peer OpenCV {}", joint ? "jointBilateralFilter" : "bilateralFilter"),
-         [&session, joint, goal]() -> Status {
+        {fmt::format("bilateral peer OpenCV {}", joint ? "jointBilateralFilter"
+                                                 : which == Peer::bits8        ? "bilateralFilter 8 bits"
+                                                 : which == Peer::bits8_opencl ? "bilateralFilter 8 bits OpenCL"
+                                                                               : "bilateralFilter"),
+         [&session, which, joint, bits8, goal]() -> Status {
            BilateralParams p;
            p.width = 1920;
            p.height = 1080;
@@ -32,6 +40,7 @@ std::vector<Job> filter_peers(Session& session) {
            p.window = FilterWindow::circle;
            p.range_norm = RangeNorm::l1;
            p.range = joint ? RangeTerm::guide : RangeTerm::self;
+           if (bits8) p.format = Format::unorm8x4;
            cases::BilateralImages images = cases::bilateral_images(p, 1);
            for (std::size_t i = 3; i < images.src.size(); i += 4) images.src[i] = 0;
            Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
@@ -46,7 +55,9 @@ std::vector<Job> filter_peers(Session& session) {
              if (Status s = run->go(1, &times); !s) return s;
              return times.total;
            };
-           const Result<OpenCvFilter> peer = opencv_filter(p, images.src, joint ? images.guide : Values());
+           const Result<OpenCvFilter> peer =
+               bits8 ? opencv_filter8(p, images.src, which == Peer::bits8_opencl ? session.device() : std::string())
+                     : opencv_filter(p, images.src, joint ? images.guide : Values());
            if (!peer) return peer.status();
            const auto pair = session.interleave(own, peer.value().run, "peer " + peer.value().name);
            if (!pair) return pair.status();
@@ -84,7 +95,8 @@ std::vector<Job> filter_peers(Session& session) {
                 {"q1", ratio.q1},
                 {"q3", ratio.q3},
                 {"device", session.device()},
-                {"options", {{"format", "f32, 3 channels"}, {"diameter", 9}, {"window", "circle"}, {"norm", "l1"}}},
+                {"options",
+                 {{"format", bits8 ? "unorm8, 3 channels" : "f32, 3 channels"}, {"diameter", 9}, {"window", "circle"}, {"norm", "l1"}}},
                 {"own_ms", to_json(summarise(pair.value().a))},
                 {"own_error", cases::max_difference(crop(out.value(), left, top, side), inner)},
                 {"goal", goal}});

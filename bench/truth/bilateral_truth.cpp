@@ -127,6 +127,7 @@ class Filter {
         for (int i = -1; i <= 1; ++i)
           variance += (2 - std::abs(i)) * (2 - std::abs(j)) / 16.0 *
                       m_.variance[at(std::clamp(x + i, 0, p_.width - 1), std::clamp(y + j, 0, p_.height - 1), 1)];
+      if (variance < p_.variance_target) return 0;
       w *= std::exp(-std::fabs(luminance(x, y) - luminance(qx, qy)) /
                     (p_.sigma_luminance * std::sqrt(variance) + p_.epsilon));
     }

@@ -57,6 +57,8 @@ struct BilateralParams {
   bool luminance = false;         // weights by luminance over its standard deviation; asks for `variance`
   double sigma_luminance = 4;     // standard deviations, above 0
   double epsilon = 1e-6;          // luminance added to what differences are divided by; above 0
+  double variance_target = 0;     // pixels whose variance (gauss3x3 of it) is below keep their value; at every level of atrous,
+                                  // so that levels end where enough is gained. Squared luminance, 0..1e30; 0: none
   bool carry_variance = false;    // atrous: `variance_out`, the variance of the result
 
   Border border = Border::clamp;

@@ -73,12 +73,27 @@ KERNEL(bilateral) {
         }
     }
 
-    for (int j = -ROWS; j < ROWS + BLOCK; ++j) {
+    // Where nothing can weigh beside the centre (sky, noise below its target), no tap is read.
+    bool idle = DEPTH != 0 || LUMINANCE != 0;
+    if (DEPTH != 0 || LUMINANCE != 0) {
+        UNROLL for (int b = 0; b < BLOCK; ++b)
+            UNROLL for (int k = 0; k < PIXELS; ++k) {
+                const float z = DEPTH != 0 ? get_pixel(depth[b * 4], k) : 0.0f;
+                const float f = LUMINANCE != 0 ? get_pixel(luminance[b * 2 + 1], k) : 0.0f;
+                idle = idle && !(z == z && f == f);
+            }
+    }
+    const int end = idle ? -ROWS : ROWS + BLOCK;
+    for (int j = -ROWS; j < end; ++j) {
         const int down = first_of(j);
         if (BORDER == BORDER_ZERO && (y + down < 0 || y + down >= params.height)) continue;
         const int row = border_index(BORDER, y + down, params.height);
         const int row2 = border_index(BORDER, y + down + 1, params.height);
-        for (int i = -COLUMNS; i <= COLUMNS; ++i) {
+        // Of a circle, the taps of this row: no test stands among the taps.
+        int side = COLUMNS;
+        if (BLOCK == 1 && COLUMNS * COLUMNS + ROWS * ROWS > REACH)
+            while (side * side + j * j > REACH) --side;
+        for (int i = -side; i <= side; ++i) {
             const int across = first_of(i);
             const bool pair = is_pair(i) || is_pair(j);
             const int tx = x + across;
@@ -103,15 +118,17 @@ KERNEL(bilateral) {
             }
             UNROLL for (int b = 0; b < BLOCK; ++b) {
                 const int t = j - b;
-                if (t < -ROWS || t > ROWS || i * i + t * t > REACH || (i == 0 && t == 0)) continue;
+                if (BLOCK > 1 && (t < -ROWS || t > ROWS || i * i + t * t > REACH)) continue;
+                if (i == 0 && t == 0) continue;
                 wide e = wide_splat(table(spatial, max(i, -i)) + table(spatial, max(t, -t)));
                 if (BIAS != 0) e = e + tap_bias;
                 if (RANGE != 0) {
-                    wide distance2 = wide_splat(0.0f);
+                    wide distance2;
                     UNROLL for (int c = 0; c < (RANGE == 2 ? GUIDES : COLOURS); ++c) {
                         wide d = RANGE == 2 ? tap_colour[c] - colour[b * (GUIDES + 1) + c]
                                             : tap[c] - centre[b * COLOURS + c];
-                        distance2 = distance2 + (L1 != 0 ? wide_abs(d) : d * d);
+                        const wide part = L1 != 0 ? wide_abs(d) : d * d;
+                        distance2 = c == 0 ? part : distance2 + part;
                     }
                     if (L1 != 0) distance2 = distance2 * distance2;
                     e = e - params.range_factor * distance2;

@@ -1,5 +1,5 @@
 // Luminance (Rec. 709) and log2(e) / (sigma_l sqrt(gauss3x3(variance)) + epsilon), by which its differences count
-// (Schied et al. 2017, eq. 5).
+// (Schied et al. 2017, eq. 5). NaN, so that nothing weighs, where that variance is below the target.
 
 FN float colour_at(CTX, int p, int x, int y) { return load_pixel(colours, params.pitch, x, p * params.height + y); }
 
@@ -22,6 +22,7 @@ KERNEL(bilateral_luminance) {
     if (COLOURS > 2) l = 0.2126f * l + 0.7152f * colour_at(ctx, 1, at, y) + 0.0722f * colour_at(ctx, 2, at, y);
     const float v = 0.25f * (variance_row(ctx, x, y - 1) + variance_row(ctx, x, y + 1)) + 0.5f * variance_row(ctx, x, y);
     store_pixel(planes, params.pitch, px, params.first * params.height + y, l);
+    const float factor = 1.44269504f / (params.sigma * sqrt(v > 0.0f ? v : 0.0f) + params.epsilon);
     store_pixel(planes, params.pitch, px, (params.first + 1) * params.height + y,
-                1.44269504f / (params.sigma * sqrt(v > 0.0f ? v : 0.0f) + params.epsilon));
+                v < params.target ? uintBitsToFloat(0x7fc00000u) : factor);
 }

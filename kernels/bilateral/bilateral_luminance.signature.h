@@ -10,6 +10,7 @@
     _(int, first)     /* the first of two planes that are written */ \
     _(int, variance)  /* the plane of `variances` */ \
     _(float, sigma)   /* sigma_l */ \
+    _(float, target)  /* variance below which nothing weighs */ \
     _(float, epsilon) /* of luminance: the least difference that counts */
 #define CONSTANTS(_) \
     _(0, int, COLOURS, 1) /* planes of `colours`: 1, 2 (their mean), or red, green, blue */ \

@@ -1,6 +1,6 @@
 // An image as planes of floats that reach beyond both ends of a row, filled as the border asks. A pixel that is not
-// finite, and what is outside where outside is nothing, must weigh nothing: it is given a value so far from all others, or
-// a bias in the exponent, that no weight is left.
+// finite, and what is outside where outside is nothing, must weigh nothing: it is given a value so far from all others
+// that no weight is left; where colours do not weigh, bilateral_mark tells by that value.
 
 FN void put(CTX, int p, int x, int y, float v) { store_pixel(planes, params.pitch, x, p * params.height + y, v); }
 
@@ -21,7 +21,7 @@ KERNEL(bilateral_split) {
     const float zero = (v.x - v.x) + (v.y - v.y) + (v.z - v.z) + (v.w - v.w);
 #endif
     const bool marked = MARK != 0 && (outside || !(zero == 0.0f));
-    const float mark = MARK == 1 ? 1.32922800e36f : 0.0f;
+    const float mark = 1.32922800e36f;
 #if SRC_CHANNELS == 1
     put(ctx, params.first, x, y, marked ? mark : params.scale * v + params.offset);
 #else
@@ -32,5 +32,4 @@ KERNEL(bilateral_split) {
     if (COUNT > 2) put(ctx, params.first + 2, x, y, marked ? mark : params.scale * v.z + params.offset);
     if (COUNT > 3) put(ctx, params.first + 3, x, y, marked ? mark : params.scale * v.w + params.offset);
 #endif
-    if (MARK == 2) store_pixel(biases, params.pitch, x, params.bias * params.height + y, marked ? -1.0e30f : 0.0f);
 }

@@ -13,14 +13,12 @@
     _(int, pitch)      /* pixels from row to row of a plane */ \
     _(int, pad)        /* pixels of a plane left of column 0 */ \
     _(int, first)      /* the first plane that is written */ \
-    _(int, bias)       /* the plane of `biases` that is written */ \
     _(float, scale)    /* planes hold scale * src + offset */ \
     _(float, offset)
 #define CONSTANTS(_) \
     _(0, int, COUNT, 1)  /* planes, at most the channels of src */ \
     _(1, int, BORDER, 0) /* math/border.h */ \
-    _(2, int, MARK, 0)   /* pixels that are not finite: 0 as they are, 1 as 2^120, 2 as 0 with a bias */
+    _(2, int, MARK, 0)   /* pixels that are not finite: 0 as they are, 1 as 2^120 */
 #define BINDINGS(_) \
     _(READ, 0, SRC, src) \
-    _(WRITE, 1, f32x1, planes) \
-    _(WRITE, 2, f32x1, biases)
+    _(WRITE, 1, f32x1, planes)

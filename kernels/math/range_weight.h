@@ -3,14 +3,22 @@
 
 // 2^e for -64 <= e <= 0, relative error 9.2e-8 and exact at 0; below -64, and for NaN, 0: a weight under 5.4e-20 changes
 // no float sum in which the centre weighs 1, and no product with it becomes a denormal.
+// A sum with 1.5 2^23 + 126 has no fraction, and its lowest bits are 126 more than e's whole part: shifted, they are half the
+// power of 2. So the polynomial is doubled; what comes of an e below -64 is not looked at.
 FN float range_weight(float e) {
-    float y = e >= -64.0f ? e : -64.0f;
-    float whole = in_double(1) ? 6755399441055744.0f : 12582912.0f;  // 1.5 2^52 or 1.5 2^23: a sum with it has no fraction
-    float n = (y + whole) - whole;
-    float t = y - n;
-    float p = 0.0555073374f + t * (0.0096715128f + t * 0.0013264727f);
-    p = 1.0f + t * (0.6931469776f + t * (0.2402224208f + t * p));
-    return e >= -64.0f ? p * uintBitsToFloat(uint(127 + int(n)) << 23) : 0.0f;
+    if (in_double(1)) {
+        float y = e >= -64.0f ? e : -64.0f;
+        float whole = (y + 6755399441055744.0f) - 6755399441055744.0f;
+        float u = y - whole;
+        float v = 0.0555073374f + u * (0.0096715128f + u * 0.0013264727f);
+        v = 1.0f + u * (0.6931469776f + u * (0.2402224208f + u * v));
+        return e >= -64.0f ? v * uintBitsToFloat(uint(127 + int(whole)) << 23) : 0.0f;
+    }
+    float n = e + 12583038.0f;
+    float t = e - (n - 12583038.0f);
+    float p = 0.1110146748f + t * (0.0193430256f + t * 0.0026529454f);
+    p = 2.0f + t * (1.3862939552f + t * (0.4804448416f + t * p));
+    return e >= -64.0f ? p * uintBitsToFloat(floatBitsToUint(n) << 23) : 0.0f;
 }
 
 // log2 d for 2^-60 <= d, absolute error 3e-8 near 1; below, and for NaN, -1e30. d = 2^k r, r in [sqrt(1/2), sqrt(2)),

@@ -5,15 +5,15 @@
 FN wide bits_to_wide(WIDE_INT v) { return *(const wide*)&v; }
 FN WIDE_INT wide_to_bits(wide v) { return *(const WIDE_INT*)&v; }
 #define WHOLE 12582912.0f  // a sum with 1.5 2^23 has no fraction; its lowest bits are the number
+#define WHOLE_126 12583038.0f
 
 FN wide wide_abs(wide w) { return bits_to_wide(wide_to_bits(w) & 0x7fffffff); }
 FN wide wide_weight(wide e) {
-    const wide y = e >= -64.0f ? e : (wide)(-64.0f);
-    const wide n = y + WHOLE;
-    const wide t = y - (n - WHOLE);
-    wide p = 0.0555073374f + t * (0.0096715128f + t * 0.0013264727f);
-    p = 1.0f + t * (0.6931469776f + t * (0.2402224208f + t * p));
-    return e >= -64.0f ? p * bits_to_wide((wide_to_bits(n) << 23) + 0x3f800000) : (wide)(0.0f);
+    const wide n = e + WHOLE_126;
+    const wide t = e - (n - WHOLE_126);
+    wide p = 2.0f * 0.0555073374f + t * (2.0f * 0.0096715128f + t * (2.0f * 0.0013264727f));
+    p = 2.0f + t * (2.0f * 0.6931469776f + t * (2.0f * 0.2402224208f + t * p));
+    return bits_to_wide((e >= -64.0f) & wide_to_bits(p * bits_to_wide(wide_to_bits(n) << 23)));
 }
 FN wide wide_log2_cosine(wide d) {
     const wide a = d >= 8.67361738e-19f ? d : (wide)(1.0f);

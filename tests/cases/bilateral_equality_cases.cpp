@@ -1,4 +1,8 @@
 // Results that must be equal to those of the C++ execution, bit for bit, for every term, format, border and variant.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "tests/cases/bilateral_cases.h"
@@ -26,6 +30,54 @@ Case equal_to_cpp(std::string name, const BilateralParams& p) {
           },
           false,
           not_double};
+}
+
+// Noise, with a NaN and an infinity in the image and in the guide.
+BilateralImages spoilt_images(const BilateralParams& p) {
+  BilateralImages images = bilateral_images(p, 20);
+  const std::size_t n = images.src.size();
+  if (p.format == Format::unorm8x4 || n < 400) return images;
+  images.src[n / 2] = std::numeric_limits<double>::quiet_NaN();
+  images.src[n / 3 * 1 + 1] = HUGE_VAL;
+  if (p.range == RangeTerm::guide) images.guide[images.guide.size() / 4] = std::numeric_limits<double>::quiet_NaN();
+  return images;
+}
+
+// The packed form (whole texels, the window unrolled) against the form of planes: on every device, as if it read texels fast.
+Case packed_equals_planes(std::string name, const BilateralParams& p) {
+  return {"",
+          "packed form, " + name,
+          "the same bits as the form of planes, and another form (values that differ)",
+          0,
+          [=](Context& context) -> Result<double> {
+            const BilateralImages images = spoilt_images(p);
+            Profile texels = context.profile(), planes = texels;
+            texels.texels = true;
+            texels.pixels.unroll = std::max(texels.pixels.unroll, 5);
+            planes.pixels.unroll = 0;
+            const auto a = filter(context, p, images, texels), b = filter(context, p, images, planes);
+            if (!a) return a.status();
+            if (!b) return b.status();
+            return count_different(a.value().dst, b.value().dst) + 
+                   (a.value().part == "bilateral_packed" && b.value().part == "bilateral" ? 0 : 1e6);
+          }};
+}
+
+void add_packed(std::vector<Case>& cases) {
+  for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4})
+    for (const Border border : {Border::clamp, Border::mirror, Border::wrap}) {
+      BilateralParams p = bilateral_params(43, 29, border == Border::mirror ? "g" : "c", format, border);
+      p.guide_format = format;
+      p.window = border == Border::clamp ? FilterWindow::circle : FilterWindow::square;
+      p.range_norm = border == Border::wrap ? RangeNorm::l2 : RangeNorm::l1;
+      p.alpha = border == Border::wrap;
+      p.radius = border == Border::clamp ? 4 : 2;
+      cases.push_back(packed_equals_planes(fmt::format("{}, border {}", name(format), static_cast<int>(border)), p));
+      cases.back().slow = format == Format::f16x4 && border != Border::clamp;
+    }
+  // Smaller than the window, and less than an invocation's results.
+  for (const auto& [width, height] : {std::pair{1, 1}, {3, 2}, {1, 9}})
+    cases.push_back(packed_equals_planes(fmt::format("{}x{}", width, height), bilateral_params(width, height, "g")));
 }
 
 }  // namespace
@@ -62,6 +114,7 @@ void add_bilateral_equality_cases(std::vector<Case>& cases) {
   p.radius = 9;
   p.step = 2;
   cases.push_back(equal_to_cpp("circle, L1, steps of 2", p));
+  add_packed(cases);
 }
 
 std::vector<Case> bilateral_cases() {
@@ -70,6 +123,7 @@ std::vector<Case> bilateral_cases() {
   add_bilateral_value_cases(cases);
   add_bilateral_guide_cases(cases);
   add_bilateral_equality_cases(cases);
+  add_bilateral_left_out_cases(cases);
   for (Case& c : cases) c.kernel = "bilateral";
   add_bilateral_variant_cases(cases);
   return cases;

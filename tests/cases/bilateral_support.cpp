@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bench/scene/images.h"
+#include "host/module.h"
 #include "tests/cases/bilateral_cases.h"
 #include "tests/cases/run.h"
 #include "tests/cases/storage.h"
@@ -46,7 +47,12 @@ BilateralImages bilateral_images(const BilateralParams& p, std::uint32_t seed, b
 }
 
 Result<Filtered> filter(Context& context, const BilateralParams& p, const BilateralImages& images) {
-  Result<Run> made = Run::make(context, plan(p, context.profile()));
+  return filter(context, p, images, context.profile());
+}
+
+Result<Filtered> filter(Context& context, const BilateralParams& p, const BilateralImages& images,
+                        const Profile& profile) {
+  Result<Run> made = Run::make(context, plan(p, profile));
   if (!made) return made.status();
   Run& run = made.value();
   Values normals = images.normals;
@@ -69,6 +75,7 @@ Result<Filtered> filter(Context& context, const BilateralParams& p, const Bilate
       if (Status status = run.write(name, *values); !status) return status;
   if (Status status = run.go(); !status) return status;
   Filtered out;
+  out.part = run.plan().passes.back().module->part;
   const std::pair<const char*, Values*> outputs[] = {
       {"dst", &out.dst}, {"variance_out", &out.variance_out}, {"counters", &out.counters}};
   for (const auto& [name, values] : outputs)

@@ -20,10 +20,13 @@ BilateralImages bilateral_images(const BilateralParams& params, std::uint32_t se
 
 struct Filtered {
   Values dst, variance_out, counters;
+  std::string part;  // the kernel file of the last pass
 };
 
-/// Filters on a device. What the kernel does not write stays NaN (255 in unorm8).
+/// Filters on a device, or as on one of another profile. What the kernel does not write stays NaN (255 in unorm8).
 Result<Filtered> filter(Context& context, const BilateralParams& params, const BilateralImages& images);
+Result<Filtered> filter(Context& context, const BilateralParams& params, const BilateralImages& images,
+                        const Profile& profile);
 
 /// The usual settings: R 4, sigma_space 2, sigma_range 0.2, the terms by name: a string of the letters c (self) g (guide)
 /// d (plane) s (svgf) n (normal) l (luminance).
@@ -35,6 +38,7 @@ void add_bilateral_formula_cases(std::vector<Case>& cases);
 void add_bilateral_value_cases(std::vector<Case>& cases);
 void add_bilateral_guide_cases(std::vector<Case>& cases);
 void add_bilateral_equality_cases(std::vector<Case>& cases);
+void add_bilateral_left_out_cases(std::vector<Case>& cases);
 void add_bilateral_variant_cases(std::vector<Case>& cases);  // with the kernels beside: each names its kernel
 
 }  // namespace luxel::cases

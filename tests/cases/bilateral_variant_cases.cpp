@@ -276,6 +276,44 @@ void add_upsample(std::vector<Case>& cases) {
                      }});
 }
 
+void add_upsample_values(std::vector<Case>& cases) {
+  cases.push_back({"bilateral", "upsample, one NaN", "taps that are not finite do not count: all are finite (values that are not)",
+                   0, [](Context& context) -> Result<double> {
+                     Inputs in = upsample_inputs(2, false);
+                     in[0].second[4 * 100 + 1] = nan;
+                     in[0].second[4 * 150] = HUGE_VAL;
+                     const auto out = result_of(context, plan(upsample_params(2, false), context.profile()), in, "dst");
+                     if (!out) return out.status();
+                     return std::count_if(out.value().begin(), out.value().end(),
+                                          [](double v) { return !std::isfinite(v); });
+                   }});
+  cases.push_back({"bilateral", "upsample, sky",
+                   "sky takes from sky, surfaces take nothing of it (largest difference from the colour of each)", 1e-6,
+                   [](Context& context) -> Result<double> {
+                     const int w = (width + 1) / 2, h = (height + 1) / 2;
+                     Values src, depth_low, depth, expected;
+                     for (int i = 0; i < w * h; ++i) {
+                       const bool sky = i / w < 8;
+                       depth_low.push_back(sky ? HUGE_VAL : 3);
+                       for (int c = 0; c < 4; ++c) src.push_back(sky ? 1000 : 0.5);
+                     }
+                     for (int i = 0; i < width * height; ++i) {
+                       const bool sky = i / width < 16;
+                       depth.push_back(sky ? 1e10 : 3);
+                       for (int c = 0; c < 4; ++c) expected.push_back(sky ? 1000 : 0.5);
+                     }
+                     const auto out = result_of(context, plan(upsample_params(2, false), context.profile()),
+                                                {{"src", src}, {"depth_low", depth_low}, {"depth", depth}}, "dst");
+                     if (!out) return out.status();
+                     double most = 0;
+                     for (std::size_t i = 0; i < expected.size(); ++i) {
+                       const double e = std::fabs(out.value()[i] / expected[i] - 1);
+                       if (!(e <= most)) most = e;
+                     }
+                     return most;
+                   }});
+}
+
 Result<Values> spread(Context& context, const Values& src) {
   VarianceParams p;
   p.width = width;
@@ -437,6 +475,7 @@ void add_bilateral_variant_cases(std::vector<Case>& cases) {
   add_discontinuity(cases);
   add_grid(cases);
   add_upsample(cases);
+  add_upsample_values(cases);
   add_variance(cases);
   add_outliers(cases);
 }

@@ -1,0 +1,184 @@
+// What bilateral leaves out: pixels whose noise is below a target; steps that leave the image; and what the pairs of `adaptive`
+// mix across edges.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tests/cases/bilateral_support.h"
+#include "tests/cases/compare.h"
+#include "tests/cases/storage.h"
+
+namespace luxel::cases {
+namespace {
+
+constexpr int width = 45, height = 37;
+
+BilateralParams guided(BilateralVariant variant) {
+  BilateralParams p = bilateral_params(width, height, "dnl");
+  p.variant = variant;
+  p.levels = 2;
+  return p;
+}
+
+// The variance that the luminance term looks at.
+double smoothed(const Values& variance, int x, int y) {
+  double sum = 0;
+  for (int j = -1; j <= 1; ++j)
+    for (int i = -1; i <= 1; ++i)
+      sum += (2 - std::abs(i)) * (2 - std::abs(j)) / 16.0 *
+             variance[std::clamp(y + j, 0, height - 1) * width + std::clamp(x + i, 0, width - 1)];
+  return sum;
+}
+
+void add_targets(std::vector<Case>& cases) {
+  for (const BilateralVariant variant : {BilateralVariant::direct, BilateralVariant::separable, BilateralVariant::atrous})
+    cases.push_back({"", fmt::format("variance target above all noise, variant {}", static_cast<int>(variant)),
+                     "the input, bit for bit, and its variance (values that differ)", 0,
+                     [=](Context& context) -> Result<double> {
+                       BilateralParams p = guided(variant);
+                       p.variance_target = 1;
+                       p.carry_variance = variant == BilateralVariant::atrous;
+                       const BilateralImages images = bilateral_images(p, 21);
+                       const auto out = filter(context, p, images);
+                       if (!out) return out.status();
+                       return count_different(out.value().dst, images.src) +
+                              (p.carry_variance ? count_different(out.value().variance_out, images.variance) : 0);
+                     }});
+  cases.push_back({"", "variance target amid the noise",
+                   "pixels below keep their value to the bit, most others do not (values that break it)", 0,
+                   [](Context& context) -> Result<double> {
+                     BilateralParams p = guided(BilateralVariant::direct);
+                     p.variance_target = 0.011;
+                     const BilateralImages images = bilateral_images(p, 22);
+                     const auto out = filter(context, p, images);
+                     if (!out) return out.status();
+                     double bad = 0, above = 0, kept = 0;
+                     for (int i = 0; i < width * height; ++i) {
+                       const double v = smoothed(images.variance, i % width, i / width);
+                       const bool as_before = same(out.value().dst[4 * i], images.src[4 * i]);
+                       if (v < 0.0109999) bad += !as_before;
+                       if (v > 0.0110001) {
+                         ++above;
+                         kept += as_before;
+                       }
+                     }
+                     return bad + (above > 100 && kept <= 0.05 * above ? 0 : 1e6);
+                   }});
+  cases.push_back({"", "variance target, levels by the formula",
+                   "each level of atrous asks anew what is below (largest difference from the formula)", 4e-5,
+                   [](Context& context) -> Result<double> {
+                     BilateralParams p = guided(BilateralVariant::atrous);
+                     p.variance_target = 0.004;
+                     const BilateralImages images = bilateral_images(p, 23);
+                     const auto out = filter(context, p, images);
+                     if (!out) return out.status();
+                     return max_difference(out.value().dst, truth::bilateral(p, images).src);
+                   }});
+  cases.push_back({"", "variance target 0", "nothing is left out: the same bits as a target below all noise (values that differ)",
+                   0, [](Context& context) -> Result<double> {
+                     BilateralParams p = guided(BilateralVariant::atrous);
+                     const BilateralImages images = bilateral_images(p, 24);
+                     const auto a = filter(context, p, images);
+                     p.variance_target = 1e-12;
+                     const auto b = filter(context, p, images);
+                     if (!a) return a.status();
+                     if (!b) return b.status();
+                     return count_different(a.value().dst, b.value().dst);
+                   }});
+}
+
+// Taps that all lie outside.
+void add_steps(std::vector<Case>& cases) {
+  for (const Border border : {Border::clamp, Border::mirror, Border::wrap, Border::zero}) {
+    cases.push_back({"", fmt::format("6 levels on 7x5, border {}", static_cast<int>(border)),
+                     "taps 32 pixels apart on an image of 7 follow the formula (largest difference)", 4e-5,
+                     [=](Context& context) -> Result<double> {
+                       BilateralParams p = bilateral_params(7, 5, "c", Format::f32x1, border);
+                       p.variant = BilateralVariant::atrous;
+                       p.levels = 6;
+                       const BilateralImages images = bilateral_images(p, 25);
+                       const auto out = filter(context, p, images);
+                       if (!out) return out.status();
+                       return max_difference(out.value().dst, truth::bilateral(p, images).src);
+                     },
+                     border != Border::clamp});
+    cases.push_back({"", fmt::format("steps of 16 on 9x6, border {}", static_cast<int>(border)),
+                     "a stride above the width follows the formula (largest difference)", 2e-6,
+                     [=](Context& context) -> Result<double> {
+                       BilateralParams p = bilateral_params(9, 6, "c", Format::f32x1, border);
+                       p.step = 16;
+                       p.radius = 48;
+                       p.sigma_space = 24;
+                       const BilateralImages images = bilateral_images(p, 26);
+                       const auto out = filter(context, p, images);
+                       if (!out) return out.status();
+                       return max_difference(out.value().dst, truth::bilateral(p, images).src);
+                     },
+                     border != Border::clamp});
+  }
+}
+
+// Pairs average pixels of both sides of an edge: their mean differs less from either than the sides do.
+void add_mixing(std::vector<Case>& cases) {
+  constexpr int side = 49, edge = 24;
+  const auto leak = [=](Context& context, bool adaptive, const std::string& terms) -> Result<double> {
+    BilateralParams p = bilateral_params(side, side, terms, Format::f32x1);
+    p.variant = BilateralVariant::separable;
+    p.adaptive = adaptive;
+    p.radius = 12;
+    p.sigma_space = 6;
+    BilateralImages images = bilateral_images(p, 27);
+    images.guide.assign(images.guide.size(), 0.5);
+    for (int i = 0; i < side * side; ++i) {
+      images.src[i] = i % side >= edge ? 1 : 0;
+      images.depth[i] = i % side >= edge ? 1 : 4;
+      for (int c = 0; c < 3; ++c) images.normals[4 * i + c] = c == (i % side >= edge ? 0 : 2);
+    }
+    const auto out = filter(context, p, images);
+    if (!out) return out.status();
+    return max_difference(out.value().dst, images.src);
+  };
+  cases.push_back({"", "a step of five sigma_range, separable",
+                   "what crosses the edge where taps are pixels (largest part of the step)", 3e-5,
+                   [=](Context& context) { return leak(context, false, "c"); }});
+  cases.push_back({"", "a step of five sigma_range, adaptive",
+                   "what the averaged pairs of the outer half carry across (largest part of the step)", 0.01,
+                   [=](Context& context) { return leak(context, true, "c"); }});
+  cases.push_back({"", "a step in depth and normals, adaptive",
+                   "pairs that straddle it weigh by their averaged guides (largest part of the step)", 1e-6,
+                   [=](Context& context) { return leak(context, true, "dn"); }});
+}
+
+void add_adaptive_nan(std::vector<Case>& cases) {
+  for (const std::string terms : {"c", "gdn"})
+    cases.push_back({"", fmt::format("one NaN, adaptive, terms '{}'", terms),
+                     "the pixel stays, all others are finite (values that break it)", 0,
+                     [=](Context& context) -> Result<double> {
+                       BilateralParams p = bilateral_params(width, height, terms, Format::f32x1);
+                       p.variant = BilateralVariant::separable;
+                       p.adaptive = true;
+                       p.radius = 9;
+                       BilateralImages images = bilateral_images(p, 28);
+                       const std::size_t at = 18 * width + 20;
+                       images.src[at] = std::numeric_limits<double>::quiet_NaN();
+                       const auto out = filter(context, p, images);
+                       if (!out) return out.status();
+                       double bad = 0;
+                       for (std::size_t i = 0; i < images.src.size(); ++i)
+                         bad += i == at ? !same(out.value().dst[i], images.src[i]) : !std::isfinite(out.value().dst[i]);
+                       return bad;
+                     }});
+}
+
+}  // namespace
+
+void add_bilateral_left_out_cases(std::vector<Case>& cases) {
+  add_targets(cases);
+  add_steps(cases);
+  add_mixing(cases);
+  add_adaptive_nan(cases);
+}
+
+}  // namespace luxel::cases
