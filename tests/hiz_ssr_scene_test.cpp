@@ -134,7 +134,7 @@ class HizSsrTruthFull : public testing::TestWithParam<Lobes> {};
 TEST_P(HizSsrTruthFull, IsNearestToPathTracingWhereTheScreenKnows) {
   const auto& [name, mirror, width, height, known] = GetParam();
   const Stage& a = Stage::get(name, width, height);
-  const auto made = truth::screen_truth(a.scene, *a.rays, width, height, mirror, mirror ? 16 : name == "atrium" ? 64 : 24);
+  const auto made = truth::screen_truth(a.scene, *a.rays, width, height, mirror, mirror ? 16 : 64);
   ASSERT_TRUE(made) << made.status().message();
   const truth::ScreenTruth& t = made.value();
   HizSsrParams p = t.params;

@@ -54,14 +54,18 @@ Result<std::shared_ptr<ScreenWorld>> world_of(int width, int height) {
   return world;
 }
 
-Result<std::shared_ptr<Run>> ready(Session& session, ScreenWorld& world, const HizSsrParams& p, const Values& normals) {
+Result<std::shared_ptr<Run>> ready(Session& session, ScreenWorld& world, const HizSsrParams& p, const Values& normals,
+                                   bool fixed = false) {
   Values& levels = world.levels[p.variant];
   if (levels.empty()) {
     auto all = cases::with_pyramid(session.cpu_float(), p, world.depth);
     if (!all) return all.status();
     levels = std::move(all).value();
   }
-  auto made = Run::make(session.context(), plan(p, session.context().profile()));
+  auto planned = plan(p, session.context().profile());
+  if (planned && fixed)
+    for (Pass& pass : planned.value().passes) pass.counts.reset();
+  auto made = Run::make(session.context(), planned);
   if (!made) return made.status();
   const auto run = std::make_shared<Run>(std::move(made).value());
   if (Status s = run->write("depth", levels); !s) return s;
@@ -207,6 +211,24 @@ Status tiles(Session& session, int width, int height) {
                            {"scene", fmt::format("atrium {}x{}", width, height)},
                            {"what", fmt::format("tiles that do not reflect; {:.0f} % of the pixels do, and cost {:.0f} % of all", 100 * part / all_rays,
                                                 100 * share.median)},
+                           {"level", 2},
+                           {"saved_ms", summarise(saved).median},
+                           {"saved_bytes", 0},
+                           {"error", 0},
+                           {"device", session.device()}});
+  if (session.context().info().api != Api::vulkan) return {};
+  // The same list walked by as many workgroups as it needs, and by those of the whole frame.
+  const auto whole = ready(session, world, world.params, some, true);
+  if (!whole) return whole.status();
+  const auto launches = session.interleave(timed(whole.value()), timed(b.value()), "left out: workgroups that a list has no tiles for");
+  if (!launches) return launches.status();
+  saved.clear();
+  for (std::size_t i = 0; i < launches.value().a.size(); ++i) saved.push_back(launches.value().a[i] - launches.value().b[i]);
+  const Sample of_fixed = summarise(ratios(launches.value().b, launches.value().a));
+  session.row("left_out", {{"kernel", "hiz_ssr"},
+                           {"scene", fmt::format("atrium {}x{}", width, height)},
+                           {"what", fmt::format("workgroups that the list has no tiles for (indirect dispatch); the frame costs {:.1f} % of a fixed launch",
+                                                100 * of_fixed.median)},
                            {"level", 2},
                            {"saved_ms", summarise(saved).median},
                            {"saved_bytes", 0},

@@ -4,14 +4,15 @@
 // the masking of both directions over that of the view's.
 
 // i / count and its radical inverse in base 2, moved to the middle.
+// Digit by digit, exact in the 16 digits that there are: masks and shifts become an instruction that not every driver has.
 FN vec2 hammersley(int i, int count) {
-    uint b = uint(i);
-    b = (b << 16) | (b >> 16);
-    b = ((b & 0x55555555u) << 1) | ((b & 0xaaaaaaaau) >> 1);
-    b = ((b & 0x33333333u) << 2) | ((b & 0xccccccccu) >> 2);
-    b = ((b & 0x0f0f0f0fu) << 4) | ((b & 0xf0f0f0f0u) >> 4);
-    b = ((b & 0x00ff00ffu) << 8) | ((b & 0xff00ff00u) >> 8);
-    return vec2((float(i) + 0.5f) / float(count), fraction_of(b) + 0.5f / float(count));
+    float inverse = 0.0f;
+    float digit = 0.5f;
+    for (int rest = i; rest > 0; rest = rest >> 1) {
+        inverse += digit * float(rest & 1);
+        digit *= 0.5f;
+    }
+    return vec2((float(i) + 0.5f) / float(count), inverse + 0.5f / float(count));
 }
 
 KERNEL(hiz_ssr_split_sum) {

@@ -176,9 +176,38 @@ Case counters_case(SsrVariant variant, const char* name) {
           }};
 }
 
+// A plane at a depth of 1000 with the near plane at 1e-3: what the stored depth resolves, and no more, is lost.
+Case resolution_case(SsrDepth depth, double bound) {
+  const char* const how = depth == SsrDepth::standard ? "standard" : depth == SsrDepth::reversed ? "reversed" : "linear";
+  return {"", fmt::format("plane at 1000, near plane 1e-3, {} depth", how),
+          "the hit lies where stored f32 depth has the plane (scene units off)", bound, [=](Context& context) -> Result<double> {
+            HizSsrParams p = ssr_params(48, 36);
+            p.depth = depth;
+            p.near_plane = 1e-3;
+            p.thickness = 200;
+            p.rays = 8;
+            const Values stored = stored_depths(p, Values(48 * 36, 1000.0));
+            Values rays;
+            for (int i = 0; i < p.rays; ++i) add_ray(rays, {0.01 * i, 0.02, -1.0 - i}, {0.01 * i, 0.02, -1.0 - i});
+            const auto r = follow(context, p, stored, rays);
+            if (!r) return r.status();
+            double most = 0;
+            for (std::size_t i = 0; i < 8; ++i) {
+              if (r.value().outcome(i) != SsrOutcome::hit) return std::numeric_limits<double>::quiet_NaN();
+              most = std::max(most, std::fabs(r.value().hits[4 * i + 2] - 1000));
+            }
+            return most;
+          }};
+}
+
 }  // namespace
 
 void add_ssr_value_cases(std::vector<Case>& cases) {
+  // A reciprocal depth of size w is rounded by w 2^-24, which moves a depth of 1000 by 1000^2 w 2^-24: stored values have
+  // w = 1 / near, the rays, which start at a depth of 1, w = 1.
+  cases.push_back(resolution_case(SsrDepth::standard, 60));
+  cases.push_back(resolution_case(SsrDepth::reversed, 0.06));
+  cases.push_back(resolution_case(SsrDepth::linear, 0.06));
   cases.push_back(cap_case(SsrVariant::hiz, "hiz"));
   cases.push_back(cap_case(SsrVariant::dda, "dda"));
   cases.push_back(cap_case(SsrVariant::linear, "linear"));
