@@ -1,4 +1,5 @@
 // Values that are not ordinary: NaN, infinities, steps of 1e6, weights that underflow, constants, sizes, strides.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -66,11 +67,12 @@ Case one_pixel(std::string what, double value, const BilateralParams& params) {
   BilateralParams p = params;
   p.count = true;
   return {"", fmt::format("one {}", what),
-          "the pixel stays; others are finite, and beyond R bit for bit as without it; it is counted (pixels that "
-          "break it)",
+          "the pixel stays; others lie among the other values, and beyond R are as without it, bit for bit; it is counted "
+          "(pixels that break it)",
           0, [=](Context& context) -> Result<double> {
             BilateralImages images = bilateral_images(p, 6);
             const int n = channels(p.format);
+            const double most = 1.01 * *std::max_element(images.src.begin(), images.src.end());
             const auto without = filter(context, p, images);
             if (!without) return without.status();
             const std::size_t at = static_cast<std::size_t>(centre) * side + centre;
@@ -85,7 +87,7 @@ Case one_pixel(std::string what, double value, const BilateralParams& params) {
               if (i / n == at)
                 count += same(v, images.src[i]) ? 0 : 1;
               else if (std::abs(x - centre) <= reach && std::abs(y - centre) <= reach)
-                count += std::isfinite(v) ? 0 : 1;
+                count += v >= 0 && v <= most ? 0 : 1;
               else
                 count += same(v, without.value().dst[i]) ? 0 : 1;
             }
