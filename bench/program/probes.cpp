@@ -157,7 +157,7 @@ Result<Values> images_of(const std::vector<std::string>& paths, int channels, Pr
       return Status(Code::io, fmt::format("{}: is {}x{}; expected {}x{} like the first", path, image.width, image.height, p.width, p.height));
     for (std::size_t i = 0; i < static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height); ++i)
       for (int c = 0; c < channels; ++c)
-        all.push_back(c < image.channels && c < 3 ? image.pixels[i * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(c)] : 0);
+        all.push_back(c == 3 ? 0 : image.pixels[i * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(image.channels < 3 ? 0 : c)]);
   }
   return all;
 }
