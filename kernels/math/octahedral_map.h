@@ -17,14 +17,20 @@ FN ivec3 mirrored_places(int map, int x, int y, int size) {
                  side && end ? bordered(map, x == 0 ? size : -1, y == 0 ? size : -1, size) : own);
 }
 
-// A bilinear look-up: texels before the first of its four in a map, and how far it lies towards the next ones. d: any length
-// but zero.
-FN vec3 octahedral_look_up(vec3 d, int size) {
-    const vec2 o = octahedral(d);
+// A bilinear look-up at a place (-1..1) of a map: texels before the first of its four, and how far it lies towards the next ones.
+FN vec3 octahedral_look_up(vec2 place, int size) {
     const float half_size = 0.5f * float(size);
-    const float x = o.x * half_size + (half_size + 0.5f);
-    const float y = o.y * half_size + (half_size + 0.5f);
+    const float x = place.x * half_size + (half_size + 0.5f);
+    const float y = place.y * half_size + (half_size + 0.5f);
     const int i = int(x);
     const int j = int(y);
     return vec3(float(j * (size + 2) + i), x - float(i), y - float(j));
+}
+
+// The place of d where 1 / (|x| + |y| + |z|) is at hand.
+FN vec2 octahedral_by(vec3 d, float per_sum) {
+    const float x = d.x * per_sum;
+    const float y = d.y * per_sum;
+    if (d.z >= 0.0f) return vec2(x, y);
+    return vec2((1.0f - abs(y)) * (x < 0.0f ? -1.0f : 1.0f), (1.0f - abs(x)) * (y < 0.0f ? -1.0f : 1.0f));
 }

@@ -14,15 +14,16 @@
 #define LOST 4
 #define DROPPED 5
 #define FARTHEST 1.0e12f  // unit lengths: squares stay finite
+#define HERE 1.0e-15f     // in the probe's place: no direction leads to it
 
 #if VISIBILITY
 FN vec2 moment_at(CTX, int i) { return vec2(load_pixel(moments, 0, i, 0).x, load_pixel(moments, 0, i, 0).y); }
 
-// How much of what a probe sees along v may lie beyond |v| = r: Chebyshev's upper bound (Donnelly and Lauritzen, Variance Shadow
+// How much of what a probe sees at a place of its map may lie beyond r: Chebyshev's upper bound (Donnelly and Lauritzen, Variance Shadow
 // Maps, 2006), sharpened. Between texels distances are mixed: mu = sum w mu_i, sigma^2 = sum w (sigma_i^2 + (mu_i - mu)^2).
-FN float visibility(CTX, int probe, vec3 v, float r) {
+FN float visibility(CTX, int probe, vec2 place, float r) {
     const int stride = params.moments_size + 2;
-    const vec3 at = octahedral_look_up(v, params.moments_size);
+    const vec3 at = octahedral_look_up(place, params.moments_size);
     const int i = probe * stride * stride + int(at.x);
     const vec2 a = moment_at(ctx, i);
     const vec2 b = moment_at(ctx, i + 1);
@@ -68,7 +69,7 @@ FN vec4 received(CTX, vec3 p, vec3 n) {
 #if COUNT
     if (beyond(q.x, params.count_x) || beyond(q.y, params.count_y) || beyond(q.z, params.count_z)) COUNTED(OUTSIDE)
 #endif
-    const vec3 at = octahedral_look_up(n, params.light_size);
+    const vec3 at = octahedral_look_up(octahedral(n), params.light_size);
     const int stride = params.light_size + 2;
     const float wd = at.y * at.z;
     const float wb = at.y - wd;
@@ -100,11 +101,13 @@ FN vec4 received(CTX, vec3 p, vec3 n) {
 #endif
         if (w > 0.0f) {
             const float r = sqrt(dot3(v, v));
-            if (FACING != 0) w = w * facing_weight(ctx, r > 0.0f ? -dot3(n, v) / r : 1.0f);
+            const bool away = r > HERE;
+            const float along = abs(v.x) + abs(v.y) + abs(v.z);
+            const float per_both = away ? 1.0f / (r * along) : 0.0f;  // divisions are dear: one for both quotients
+            if (FACING != 0) w = w * facing_weight(ctx, away ? -dot3(n, v) * (along * per_both) : 1.0f);
+            float visible = away || r <= HERE ? 1.0f : r;  // NaN stays
 #if VISIBILITY
-            const float visible = visibility(ctx, probe, v, r);
-#else
-            const float visible = 1.0f;
+            if (away) visible = visibility(ctx, probe, octahedral_by(v, r * per_both), r);
 #endif
             const int i = probe * stride * stride + int(at.x);
             const vec4 e = wa * load_pixel(light, 0, i, 0) + wb * load_pixel(light, 0, i + 1, 0) +
