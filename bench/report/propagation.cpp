@@ -262,6 +262,7 @@ std::vector<Job> propagation_grid(Session& session) {
   if (quick) {
     add(setting(16, LpvLobes::linear, 2, Format::f32x4, 8));
     add(setting(16, LpvLobes::rescale, 2, Format::f16x4, 8));
+    add_copies(session, jobs, "16x16x16", 16 * 16, 16 * 3);
     return jobs;
   }
   for (const int iterations : {4, 8, 16, 32})
@@ -271,6 +272,7 @@ std::vector<Job> propagation_grid(Session& session) {
         if (iterations == 8) add(setting(32, lobes, bands, Format::f16x4, iterations));
       }
   for (const int iterations : {8, 32}) add(setting(64, LpvLobes::linear, 2, Format::f32x4, iterations));
+  for (const int side : {32, 64}) add_copies(session, jobs, fmt::format("{0}x{0}x{0}", side), side * side, side * 3);
   return jobs;
 }
 
