@@ -37,7 +37,7 @@ std::size_t lpv_geometry_pixels(const LpvGrid& grid);
 
 /// What is done where a lobe of few bands is negative.
 enum class LpvLobes {
-  linear,  // nothing: the step is a constant matrix a neighbour. Flux is kept, growth is at most 1
+  linear,  // nothing, the least error as well as the fastest: the step is a constant matrix a neighbour. Flux is kept, growth is at most 1
   clamp,   // negative fluxes count as none, the published form. Adds 11 to 14 % of flux in the first step
   shrink,  // band 1 (and 2) of a cell are scaled down until no direction is negative. Flux is kept
   rescale  // as clamp, then the thirty fluxes of a cell are scaled so that their sum is the linear one. Flux is kept
