@@ -66,6 +66,11 @@ Status validate(const LpvPropagateParams& p) {
   LUXEL_CHECK(check_range("LpvPropagateParams.lobes", static_cast<int>(p.lobes), 0, 3));
   LUXEL_CHECK(check_range("LpvPropagateParams.border", static_cast<int>(p.border), 0, 1));
   if (p.geometry) LUXEL_CHECK(check_format("LpvPropagateParams.geometry_format", p.geometry_format));
+  LUXEL_CHECK(check_range("LpvPropagateParams.error", p.error, 0.0, 0.5));
+  if (!p.active && p.error > 0)
+    return out_of_range("LpvPropagateParams.error", p.error, "0 without active, whose steps find out what travels");
+  if (p.active && p.travelling)
+    return out_of_range("LpvPropagateParams.travelling", "true", "false with active, whose last step is not known before");
   if (too_large(p))
     return out_of_range(extents[2], p.grid.extent[2], "a grid whose coefficients, in f32 and with 16 cells more along each axis, "
                         "take at most 2147483647 bytes");
@@ -106,15 +111,33 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   const std::array<Slot, 2> light{planner.scratch(Format::f32x1, values), planner.scratch(Format::f32x1, values)};
   const std::array<Slot, 2> sum{planner.scratch(Format::f32x1, values), planner.scratch(Format::f32x1, values)};
 
+  const int lanes = profile.rows.lanes > 0 ? lane_limit : 1;
+  const int runs = (e[0] + lanes - 1) / lanes;
+  const std::array<std::uint32_t, 3> workgroup =
+      lanes > 1 ? std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(std::min(4, s.pitch / lanes)), 8, 1}
+                : profile.voxels.workgroup;
+  const int states = p.active ? p.iterations + 2 : 1;  // steps made; the largest c0 before each step and after the last
+  const Slot state = planner.scratch(Format::u32, static_cast<std::size_t>(states));
+  std::array<Slot, 2> reached;
+  if (p.active)
+    for (Slot& flags : reached)
+      flags = planner.scratch(Format::u32, static_cast<std::size_t>(runs) * static_cast<std::size_t>(e[1]) * static_cast<std::size_t>(e[2]));
+
   const double n = static_cast<double>(e[0]) * e[1] * e[2] * p.channels;
   const double stored = static_cast<double>(quads) * static_cast<double>(bytes_per_pixel(p.format));
   const Planner::Values extent = {{"width", e[0]}, {"height", e[1]}, {"depth", e[2]}};
   planner.pass("lpv_start", std::string(name(p.format)) + "_" + bands, "light_propagation start",
                cells(s.pitch, e[1], e[2] * p.channels), profile.voxels.workgroup,
-               extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}},
-               {{"LOBES", static_cast<int>(p.lobes)}},
-               {{"injected", injected}, {"travelling", light[0]}, {"other", light[1]}, {"sum", sum[0]}});
-  planner.cost(0, n * (stored + 2.0 * 4 * coefficients(p)));
+               extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}, {"states", states}},
+               {{"LOBES", static_cast<int>(p.lobes)}, {"ACTIVE", p.active}},
+               {{"injected", injected}, {"travelling", light[0]}, {"other", light[1]}, {"sum", sum[0]}, {"total", sum[1]}, {"state", state}});
+  planner.cost(0, n * (stored + (p.active ? 4.0 : 2.0) * 4 * coefficients(p)));
+  if (p.active) {
+    planner.pass("lpv_reach", "plain", "light_propagation reach", cells(runs, e[1], e[2]), workgroup,
+                 extent + s.values() + Planner::Values{{"planes", p.channels * coefficients(p)}, {"coefficients", coefficients(p)}},
+                 {{"LANES", lanes}}, {{"travelling", light[0]}, {"reached", reached[0]}, {"state", state}});
+    planner.cost(0, n * 4 * coefficients(p));
+  }
 
   if (blocked) {
     blocking = planner.scratch(Format::f32x1, 4 * static_cast<std::size_t>(g.plane));
@@ -126,27 +149,26 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                         (16.0 + static_cast<double>(bytes_per_pixel(p.geometry_format))));
   }
 
-  const int lanes = profile.rows.lanes > 0 ? lane_limit : 1;
-  const std::array<std::uint32_t, 3> workgroup =
-      lanes > 1 ? std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(std::min(4, s.pitch / lanes)), 8, 1}
-                : profile.voxels.workgroup;
   for (int step = 0; step < p.iterations; ++step) {
     const std::size_t from = static_cast<std::size_t>(step % 2), to = 1 - from;
     const bool blocks = p.geometry && (step > 0 || p.continued);
-    const bool apart = lanes > 1 && !blocks;
+    const bool apart = lanes > 1 && !blocks && !p.active;
     const bool last = step + 1 == p.iterations;
     std::vector<std::pair<std::string_view, Slot>> slots = {
         {"src", light[from]}, {"dst", light[to]}, {"sum", sum[from]}, {"total", sum[to]}};
     if (blocks) slots.push_back({"geometry", blocking});
-    planner.pass("lpv_propagate", blocks ? bands + "_geometry" : bands, "light_propagation step " + std::to_string(step + 1),
-                 cells((e[0] + lanes - 1) / lanes, e[1], apart ? e[2] * p.channels : e[2]), workgroup,
+    if (p.active) slots.insert(slots.end(), {{"reached", reached[from]}, {"reaches", reached[to]}, {"state", state}});
+    planner.pass("lpv_propagate", bands + (blocks ? "_geometry" : "") + (p.active ? "_active" : ""), "light_propagation step " + std::to_string(step + 1),
+                 cells(runs, e[1], apart ? e[2] * p.channels : e[2]), workgroup,
                  extent + s.values() +
                      Planner::Values{{"geometry_pitch", g.pitch},
                                      {"geometry_slice", g.slice},
                                      {"geometry_plane", g.plane},
                                      {"channels", p.channels},
                                      {"across", step == 0 && p.bands == 3},
-                                     {"last", !last ? 0 : p.travelling ? 2 : 1}},
+                                     {"last", !last ? 0 : p.travelling ? 2 : 1},
+                                     {"step", step},
+                                     {"error", p.error}},
                  {{"LOBES", static_cast<int>(p.lobes)},
                   {"PERIODIC", p.border == LpvBorder::periodic},
                   {"APART", apart},
@@ -160,14 +182,15 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   }
 
   const std::size_t at = static_cast<std::size_t>(p.iterations % 2);
-  const auto finish = [&](Slot from, Slot to, bool keep) {
+  const auto finish = [&](Slot from, Slot odd, Slot to, bool keep) {
     planner.pass("lpv_finish", name(p.format), "light_propagation finish", cells(e[0], e[1], e[2] * p.channels * quads),
                  profile.voxels.workgroup, extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", keep}},
-                 {{"QUADS", quads}}, {{"injected", injected}, {"sum", from}, {"result", to}});
+                 {{"QUADS", quads}, {"ACTIVE", p.active}},
+                 {{"injected", injected}, {"sum", from}, {"result", to}, {"odd", odd}, {"state", state}});
     planner.cost(0, n * (4.0 * carried(p) + stored));
   };
-  finish(sum[at], result, p.keep_injected);
-  if (p.travelling) finish(light[at], travelling, false);
+  finish(p.active ? sum[0] : sum[at], sum[1], result, p.keep_injected);
+  if (p.travelling) finish(light[at], light[at], travelling, false);
   return std::move(planner).finish();
 }
 

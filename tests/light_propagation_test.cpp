@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/module.h"
+#include "tests/cases/compare.h"
 #include "tests/cases/light_propagation_support.h"
 #include "tests/cases/run.h"
 #include "tests/support/run.h"
@@ -31,7 +32,8 @@ TEST(LightPropagation, OneLightInFreeSpaceAgainstTheInverseSquare) {
   Values light(4 * lpv_pixels(p.grid, 2, 1), 0);
   const auto at = [](int x, int y, int z) { return static_cast<std::size_t>(4 * ((z * 65 + y) * 65 + x)); };
   light[at(32, 32, 32)] = std::sqrt(4 * pi);
-  for (const std::string& device : test_devices()) {
+  {
+    const std::string& device = test_devices().front();  // bits are equal: light_propagation_step_test.cpp
     const Result<Values> got = cases::propagate(test_context(device), p, light);
     ASSERT_TRUE(got.ok()) << got.status().message();
     const double expected[3][2] = {{2, 2.082}, {4, 2.377}, {8, 1.399}};
@@ -139,6 +141,65 @@ TEST(LightPropagation, WhatIsLeftOutDoesNotChangeTheRest) {
   }
 }
 
+// Cells that no light has reached are left out, and no bit changes: few lights, many, none, beside borders, of c0 = 0.
+TEST(LightPropagation, ActiveCellsGiveTheBitsOfAll) {
+  struct Setting {
+    std::array<int, 3> extent;
+    int bands, every;
+    LpvLobes lobes;
+    LpvBorder border;
+    bool geometry, keep;
+  };
+  for (const Setting& s : {Setting{{35, 6, 7}, 2, 300, LpvLobes::linear, LpvBorder::open, false, true},
+                           {{33, 5, 6}, 2, 300, LpvLobes::rescale, LpvBorder::periodic, true, false},
+                           {{20, 4, 9}, 3, 90, LpvLobes::linear, LpvBorder::open, true, true},
+                           {{16, 3, 3}, 2, 1000000, LpvLobes::linear, LpvBorder::open, false, true}}) {
+    LpvPropagateParams p = cases::lpv_params(s.extent, s.bands, s.lobes);
+    p.iterations = 5, p.border = s.border, p.geometry = s.geometry, p.keep_injected = s.keep, p.channels = 2;
+    Values light = truth::lpv_to_pixels(p.grid, s.bands, cases::lpv_lights(p.grid, s.bands, s.every, 31));
+    Values other(light.size(), 0);
+    if (s.every < 1000) other[4 * 18 + 1] = 2, other[4 * 20 + 3] = -0.0;  // no flux, only a direction
+    light.insert(light.end(), other.begin(), other.end());
+    const Values blocks = s.geometry ? cases::lpv_surfels(p.grid, 1, 32) : Values();
+    std::vector<std::string> devices = test_devices();
+    devices.push_back("cpu:double");
+    for (const std::string& device : devices) {
+      p.active = false;
+      const Result<Values> all = cases::propagate(test_context(device), p, light, blocks);
+      p.active = true;
+      const Result<Values> some = cases::propagate(test_context(device), p, light, blocks);
+      ASSERT_TRUE(all.ok()) << all.status().message();
+      ASSERT_TRUE(some.ok()) << some.status().message();
+      EXPECT_EQ(cases::count_different(some.value(), all.value()), 0) << device << " " << cases::name(s.lobes) << s.bands;
+      for (const std::string& message : test_context(device).validation_messages()) ADD_FAILURE() << message;
+    }
+  }
+}
+
+// Steps end when what travels is a share of what was injected: the result is that of as many steps.
+TEST(LightPropagation, StepsEndBelowTheErrorAskedFor) {
+  LpvPropagateParams p = cases::lpv_params({20, 9, 8});
+  const Values light = truth::lpv_to_pixels(p.grid, 2, cases::lpv_lights(p.grid, 2, 400, 5));
+  double most = 0;
+  for (std::size_t at = 0; at < light.size(); at += 4) most = std::max(most, light[at]);
+  for (const double error : {0.2, 0.03, 0.004})
+    for (const std::string& device : test_devices()) {
+      // As many steps as it takes: what travels after k of them, from the difference of two sums.
+      Values before(light.size(), 0), sum;
+      int steps = 0;
+      for (double travels = most; travels > error * most && steps < 40; before = sum) {
+        p.active = false, p.error = 0, p.iterations = ++steps;
+        sum = cases::propagate(test_context(device), p, light).value();
+        travels = 0;
+        for (std::size_t at = 0; at < sum.size(); at += 4) travels = std::max(travels, std::fabs(sum[at] - before[at]));
+      }
+      p.active = true, p.error = error, p.iterations = 40;
+      EXPECT_GT(steps, 1);
+      EXPECT_LT(steps, 40);
+      EXPECT_EQ(cases::propagate(test_context(device), p, light).value(), sum) << device << " " << error << ", " << steps;
+    }
+}
+
 struct Refusal {
   std::function<void(LpvPropagateParams&)> change;
   std::string message;
@@ -161,6 +222,11 @@ TEST(LightPropagation, RefusesWithFieldValueAndRange) {
       {[](auto& p) { p.iterations = 1001; }, "LpvPropagateParams.iterations is 1001; expected 1..1000"},
       {[](auto& p) { p.lobes = static_cast<LpvLobes>(4); }, "LpvPropagateParams.lobes is 4; expected 0..3"},
       {[](auto& p) { p.border = static_cast<LpvBorder>(2); }, "LpvPropagateParams.border is 2; expected 0..1"},
+      {[](auto& p) { p.active = true, p.error = 0.6; }, "LpvPropagateParams.error is 0.6; expected 0..0.5"},
+      {[](auto& p) { p.error = 0.1; },
+       "LpvPropagateParams.error is 0.1; expected 0 without active, whose steps find out what travels"},
+      {[](auto& p) { p.active = p.travelling = true; },
+       "LpvPropagateParams.travelling is true; expected false with active, whose last step is not known before"},
       {[](auto& p) { p.geometry = true, p.geometry_format = Format::unorm8x4; },
        "LpvPropagateParams.geometry_format is unorm8x4; expected f32x4 or f16x4"},
   };

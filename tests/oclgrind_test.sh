@@ -31,5 +31,6 @@ check voxelize_window_test 'Voxelize.AWindowHolds*'
 check voxel_inject_test 'VoxelInject.SameBits*:VoxelInject.AWindow*'
 check voxel_inject_map_test 'VoxelInjectMap.BadTexels*:VoxelInjectMap.LightsAndAMap*:VoxelInjectMap.WhereAMap*'
 check cone_trace_test 'ConeTraceSmall*:ConeTrace.TurnedSets*:ConeTrace.ASky*'
+check light_propagation_step_test 'LightPropagation/LpvStep.*1x1x1*:LightPropagation/LpvStep.*16x1x2*'
 check cone_trace_clipmap_test 'ConeTraceClipmap.AMoved*'
 exit $failed

@@ -327,7 +327,8 @@ TEST(Report, ADriverThatDiesLosesOnlyItsOwnRowsAndIsNamed) {
 TEST(Report, WrongUseIsOneLineAndStatusTwo) {
   for (const auto& [arguments, text] :
        {std::pair<std::string, std::string>{"--kernel blur",
-                                            "luxel: --kernel is blur; expected one of: gaussian_blur, bilateral, mip_build, voxelize, cone_trace, hiz_ssr\n"},
+                                            "luxel: --kernel is blur; expected one of: gaussian_blur, bilateral, mip_build, voxelize, cone_trace, hiz_ssr, "
+                                            "light_propagation\n"},
         {"--image /nonexistent.png", "luxel: --image: /nonexistent.png: "},
         {"--device cpu:double",
          "luxel: --device is cpu:double; expected another: every row is compared with cpu:double\n"}}) {

@@ -64,7 +64,7 @@ double apart(const Values& a, const Values& b) {
 
 std::string label(const LpvPropagateParams& p) {
   return fmt::format("light_propagation {} {} bands {} {} channels {} steps{} {}^3", cases::name(p.lobes), p.bands,
-                     luxel::name(p.format), p.channels, p.iterations, p.geometry ? " geometry" : "", p.grid.extent[0]);
+                     luxel::name(p.format), p.channels, p.iterations, p.geometry ? " geometry" : p.active ? " active" : "", p.grid.extent[0]);
 }
 
 LpvPropagateParams setting(int side, LpvLobes lobes, int bands, Format format, int iterations) {
@@ -282,6 +282,11 @@ std::vector<Job> propagation_left_out(Session& session) {
   };
   pair("the geometry volume where nothing blocks", 1, blocked, plain);
   pair("channels that equal the first (one for three)", 2, plain, one);
+  LpvPropagateParams active = one, ended = one;
+  active.active = ended.active = true, ended.error = 0.01;
+  pair("cells that no light has reached (one light, 8 steps)", 2, one, active);
+  one.iterations = ended.iterations = 64;
+  pair("steps after the largest coefficient fell to 1 % (one light, at most 64 steps)", 2, one, ended);
   return jobs;
 }
 
@@ -357,6 +362,8 @@ std::vector<BenchSetting> light_propagation_settings(const Profile& profile) {
   add(setting(32, LpvLobes::linear, 3, Format::f32x4, 8));
   LpvPropagateParams p = setting(32, LpvLobes::linear, 2, Format::f32x4, 8);
   p.geometry = true;
+  add(p);
+  p.geometry = false, p.active = true;
   add(p);
   add(setting(64, LpvLobes::linear, 2, Format::f32x4, 8));
   return settings;

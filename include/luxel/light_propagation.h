@@ -61,6 +61,9 @@ struct LpvPropagateParams {
   bool continued = false;                 // injected has travelled already: the first step is blocked too
   Format geometry_format = Format::f32x4; // f32x4 or f16x4
   bool keep_injected = true;              // result holds the injected light as well as that of every step
+  bool active = false;                    // works only where light has come: one ring of cells more a step
+  double error = 0;                       // active: no further steps when the largest c0 that travels is at most this share
+                                          // of the largest injected; 0..0.5, 0: all steps
   bool travelling = false;                // adds `travelling`: the light after the last step, to go on from
 };
 

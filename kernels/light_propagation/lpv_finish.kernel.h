@@ -3,6 +3,7 @@
 FN float summed(CTX, int to, int i, float across) {
     if (i > 8) return 0.0f;
     if (i == 4 || i == 5 || i == 7) return params.keep != 0 ? across : 0.0f;
+    if (ACTIVE != 0 && load(state, 0) % 2u == 1u) return load(odd, to + i * params.plane);
     return load(sum, to + i * params.plane);
 }
 

@@ -43,6 +43,18 @@ FN wide corner(CTX, int i, int x, int y, int z) {
 }
 #endif
 
+#if ACTIVE
+// Whether light has come to the run of cells i of row (y, z).
+FN bool lit(CTX, int i, int y, int z) {
+    const int runs = (params.width + PIXELS - 1) / PIXELS;
+    const int a = wrapped(i, runs);
+    const int b = wrapped(y, params.height);
+    const int c = wrapped(z, params.depth);
+    const bool inside = a >= 0 && a < runs && b >= 0 && b < params.height && c >= 0 && c < params.depth;
+    return inside && load(reached, inside ? (c * params.height + b) * runs + a : 0) != 0u;
+}
+#endif
+
 KERNEL(lpv_propagate) {
     const int x = invocation_x() * PIXELS;
     const int y = invocation_y();
@@ -50,7 +62,25 @@ KERNEL(lpv_propagate) {
     const int first = APART != 0 ? invocation_z() / params.depth : 0;
     const int last = APART != 0 ? first + 1 : params.channels;
     if (x >= params.width || y >= params.height || z >= params.depth || last > params.channels) return;
-
+#if ACTIVE
+    // Where no light has come, both buffers hold nothing and both sums what lpv_start put there.
+    if (params.error > 0.0f) {
+        const float most = uintBitsToFloat(load(state, 1 + params.step));
+        if (most <= params.error * uintBitsToFloat(load(state, 1))) return;
+    }
+    const int run = invocation_x();
+    if (run == 0 && y == 0 && z == 0) store(state, 0, uint(params.step + 1));
+    const int flag = (z * params.height + y) * ((params.width + PIXELS - 1) / PIXELS) + run;
+    const bool before = lit(ctx, run, y, z);
+    const bool around = lit(ctx, run - 1, y, z) || lit(ctx, run + 1, y, z) || lit(ctx, run, y - 1, z) ||
+                        lit(ctx, run, y + 1, z) || lit(ctx, run, y, z - 1) || lit(ctx, run, y, z + 1);
+    if (!before && !around) {
+        store(reaches, flag, 0u);
+        return;
+    }
+    uint some = 0u;  // bits of any coefficient but its sign
+    uint most = 0u;  // of the largest c0
+#endif
 #if BLOCKED
     // What passes of light that goes through face n / 2, n % 2 of the cell and on through face k: 1 - B(-w), with B the mean
     // of the face's four corners.
@@ -165,6 +195,14 @@ KERNEL(lpv_propagate) {
             if (i != 4 && i != 5 && i != 7)
                 store_wide(total, 0, to, 0, load_wide(sum, 0, to, 0) + made[i]);
         }
+#if ACTIVE
+        for (int k = 0; k < PIXELS && x + k < params.width; ++k) {
+            const uint flux = floatBitsToUint(abs(get_pixel(made[0], k)));
+            most = max(most, flux);
+            if (!before)
+                for (int i = 0; i < COEFFICIENTS; ++i) some = some | (floatBitsToUint(get_pixel(made[i], k)) & 0x7fffffffu);
+        }
+#endif
         if (params.last == 1) continue;
         if (LOBES == 2 && params.last == 0) {
             const wide one = made[3] * made[3] + made[1] * made[1] + made[2] * made[2];
@@ -180,4 +218,8 @@ KERNEL(lpv_propagate) {
         UNROLL for (int i = 0; i < COEFFICIENTS; ++i)
             if (i != 4 && i != 5 && i != 7) store_wide(dst, 0, row_of(ctx, channel * COEFFICIENTS + i, y, z) + x, 0, made[i]);
     }
+#if ACTIVE
+    store(reaches, flag, before || some != 0u ? 1u : 0u);
+    if (params.error > 0.0f && most != 0u) atomic_max(state, 2 + params.step, most);
+#endif
 }

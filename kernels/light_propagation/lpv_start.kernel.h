@@ -24,6 +24,7 @@ KERNEL(lpv_start) {
         store(other, x, 0.0f);
         store(other, params.pitch + x, left);
         store(other, 2 * params.pitch + x, right);
+        for (int i = x; i < params.states; i += params.pitch) store(state, i, 0u);
     }
 
     float c[12];
@@ -38,7 +39,15 @@ KERNEL(lpv_start) {
     }
     const int plane = params.plane;
     const int to = 3 * params.pitch + channel * COEFFICIENTS * plane + z * params.slice + y * params.pitch + x;
-    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) store(sum, to + i * plane, params.keep != 0 ? c[i] : 0.0f);
+    // Where no light comes nothing is added to a sum: as if 0 was, which makes 0 of -0.
+    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) {
+        const float begin = params.keep == 0 || c[i] == 0.0f ? 0.0f : c[i];
+        store(sum, to + i * plane, begin);
+        if (ACTIVE != 0) {
+            store(total, to + i * plane, begin);
+            store(other, to + i * plane, 0.0f);
+        }
+    }
     if (LOBES == 2) {
         float two = 0.0f;
 #if BANDS == 3

@@ -13,11 +13,15 @@
     _(int, slice) \
     _(int, plane) \
     _(int, channels) \
-    _(int, keep)     /* 1: the sum begins with the injected light, 0: with none */
+    _(int, keep)     /* 1: the sum begins with the injected light, 0: with none */ \
+    _(int, states)   /* values of state, which are cleared */
 #define CONSTANTS(_) \
-    _(0, int, LOBES, 0)  /* 0 linear, 1 clamp, 2 shrink, 3 rescale */
+    _(0, int, LOBES, 0)  /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
+    _(1, int, ACTIVE, 0) /* 1: the other two buffers are filled too, since steps leave out cells */
 #define BINDINGS(_) \
     _(READ, 0, PIXEL, injected) \
     _(WRITE, 1, float, travelling) \
     _(WRITE, 2, float, other)     /* what the first step writes: its three rows are made here */ \
-    _(WRITE, 3, float, sum)
+    _(WRITE, 3, float, sum) \
+    _(WRITE, 4, float, total)     /* the other sum */ \
+    _(WRITE, 5, uint, state)

@@ -1,0 +1,19 @@
+// Where injected light is: a flag for each run of PIXELS cells, and the largest c0.
+KERNEL(lpv_reach) {
+    const int x = invocation_x() * PIXELS;
+    const int y = invocation_y();
+    const int z = invocation_z();
+    if (x >= params.width || y >= params.height || z >= params.depth) return;
+    uint some = 0u;
+    uint most = 0u;
+    for (int plane = 0; plane < params.planes; ++plane) {
+        const wide c = load_wide(travelling, 0, 3 * params.pitch + plane * params.plane + z * params.slice + y * params.pitch + x, 0);
+        for (int k = 0; k < PIXELS && x + k < params.width; ++k) {
+            const uint bits = floatBitsToUint(abs(get_pixel(c, k)));
+            some = some | bits;
+            if (plane % params.coefficients == 0) most = max(most, bits);
+        }
+    }
+    store(reached, (z * params.height + y) * ((params.width + PIXELS - 1) / PIXELS) + invocation_x(), some != 0u ? 1u : 0u);
+    if (most != 0u) atomic_max(state, 1, most);
+}
