@@ -104,7 +104,7 @@ Result<Measured> measure(Session& session, const Setting& s, const scene::Rays& 
   dvec3 centre(0);
   for (const dvec3& p : places) centre += p / static_cast<double>(places.size());
   LpvSceneSettings settings = scene_settings(s, centre);
-  // What a camera sees beside what lights see: each receiver stands for an equal share of the cells' faces about it.
+  // What a camera sees beside what lights see: each receiver stands for its share of about a steradian.
   if (s.blockers == LpvBlockers::maps)
     for (std::size_t i = 0; i < places.size(); ++i) {
       const double along = glm::length(rays.scene().camera.eye - places[i]);
