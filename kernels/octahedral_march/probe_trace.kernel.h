@@ -268,7 +268,7 @@ FN void trace_ray(CTX, int i) {
             int first = 0;
             int turn = 0;  // in the order of the cage
             int tried = 0;
-            while (int(found.x) == UNKNOWN && tried < params.tries && turn < 32) {
+            while (int(found.x) == UNKNOWN && tried < params.tries && turn < max(params.tries, 8)) {
                 const ivec3 here = cage_of(origin + found.y * d, grid_origin, spacing, count);
                 if (here.x != low.x || here.y != low.y || here.z != low.z) {
                     // Into another cage: first the probe nearest to the ray's line.

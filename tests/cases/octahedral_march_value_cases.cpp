@@ -112,6 +112,47 @@ Case all_hidden(ProbeOrder order) {
           }};
 }
 
+// Who is asked k-th, known by whose texel ends knowledge after k tries: (i + 3) mod 8, or i xor 7, 6, 7, 5, 7, 6, 7.
+Case order_of_probes(ProbeOrder order) {
+  return {"", fmt::format("order of a cage's probes, {}", order == ProbeOrder::plus3 ? "plus3" : "farthest"),
+          "from the probe nearest to the ray's line on, as documented (probes asked out of order)", 0,
+          [=](Context& context) -> Result<double> {
+            const ProbeGrid g = cage(2);
+            auto scene = ProbeScene::make(context, maps(), g, texel_values(size, 8, [](int, const Vec&, Vec&) { return 0.125; }));
+            if (!scene) return scene.status();
+            const auto rays = random_rays(200, 0.5, 0.4);
+            const Values stored = ray_values(rays);
+            std::vector<int> expected(rays.size());
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+              double nearest = inf;
+              for (int p = 0; p < 8; ++p) {
+                const Vec c = corner(g, p);
+                double along = 0, squared = 0, l = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                  const double to = c[k] - stored[8 * i + k], d = stored[8 * i + 4 + k];
+                  along += to * d, squared += to * to, l += d * d;
+                }
+                const double off = squared - along * along / l;
+                if (off < nearest) nearest = off, expected[i] = p;
+              }
+            }
+            constexpr int turns[] = {7, 6, 7, 5, 7, 6, 7};
+            double wrong = 0;
+            for (int k = 0; k < 8; ++k) {
+              ProbeTraceParams p;
+              p.order = order;
+              p.tries = k + 1;
+              const auto t = scene.value().trace(p, stored);
+              if (!t) return t.status();
+              for (std::size_t i = 0; i < rays.size(); ++i) {
+                if (k > 0) expected[i] = order == ProbeOrder::plus3 ? (expected[i] + 3) % 8 : expected[i] ^ turns[k - 1];
+                wrong += static_cast<int>(t.value().texels[i]) / (size * size) != expected[i];
+              }
+            }
+            return wrong;
+          }};
+}
+
 // Seven of eight are shut in; the one that is open, wherever it is, is found in either order.
 Case one_open(ProbeOrder order) {
   return {"", fmt::format("seven of eight hidden, {}", order == ProbeOrder::plus3 ? "plus3" : "farthest"),
@@ -387,6 +428,7 @@ Case tint() {
 void add_probe_value_cases(std::vector<Case>& cases) {
   for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(all_hidden(order));
   for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(one_open(order));
+  for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(order_of_probes(order));
   cases.push_back(in_geometry());
   cases.push_back(all_dead());
   cases.push_back(on_surface());
