@@ -34,8 +34,7 @@ void cast(std::size_t n, std::vector<VirtualLight>& lights,
 }
 
 // A map of parallel rays that come from `to`, over the scene's bounds.
-void parallel(const Rays& rays, dvec3 to, dvec3 irradiance, int texels, std::vector<VirtualLight>& lights) {
-  const Bounds box = bounds(rays.scene());
+void parallel(const Rays& rays, const Bounds& box, dvec3 to, dvec3 irradiance, int texels, std::vector<VirtualLight>& lights) {
   const dvec3 axis = std::fabs(to.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0);
   const dvec3 right = glm::normalize(glm::cross(axis, to)), up = glm::cross(to, right);
   dvec3 low(1e300), high(-1e300);
@@ -138,7 +137,8 @@ void append(std::vector<float>& list, dvec3 v, double w) {
 std::vector<VirtualLight> reflective_shadow_maps(const Rays& rays, const RsmSettings& settings) {
   const Scene& scene = rays.scene();
   std::vector<VirtualLight> lights;
-  if (scene.sun.irradiance != dvec3(0)) parallel(rays, scene.sun.direction, scene.sun.irradiance, settings.sun_texels, lights);
+  const Bounds box = bounds(scene);
+  if (scene.sun.irradiance != dvec3(0)) parallel(rays, box, scene.sun.direction, scene.sun.irradiance, settings.sun_texels, lights);
   if (!scene.sky.dark())
     for (int i = 0; i < settings.sky_directions; ++i) {
       // Points of equal area on a spiral (Vogel 1979), each for its share of the sphere.
@@ -147,7 +147,7 @@ std::vector<VirtualLight> reflective_shadow_maps(const Rays& rays, const RsmSett
       const dvec3 to(r * std::cos(angle), z, r * std::sin(angle));
       const dvec3 radiance = scene.sky.toward(to);
       if (radiance != dvec3(0))
-        parallel(rays, to, radiance * (4 * pi / settings.sky_directions), settings.sky_texels, lights);
+        parallel(rays, box, to, radiance * (4 * pi / settings.sky_directions), settings.sky_texels, lights);
     }
   lamps(rays, settings.lamp_rays, lights);
   return lights;
