@@ -132,6 +132,7 @@ Session::Timed timed(const std::shared_ptr<Run>& run) {
 // What a term costs that is left out where it is not asked for.
 std::vector<Job> filter_left_out(Session& session) {
   std::vector<Job> jobs;
+  if (session.is_cpu() && session.settings().quick) return jobs;  // 10 s that nobody runs it for
   for (const auto& [term, what] :
        {std::pair{'d', "the depth term"}, {'n', "the normal term"}, {'g', "the colour term"}})
     jobs.push_back(

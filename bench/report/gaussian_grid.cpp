@@ -101,7 +101,7 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   const Shared main = files.empty() ? small : files.front();
 
   for (const double sigma : sigmas) {
-    grid.ways(main, sigma, ks, Format::f32x4);
+    grid.ways(main, sigma, quick && sigma != 4 ? some_ks : ks, Format::f32x4);
     grid.without_taps(main, sigma, Format::f32x4);
   }
   // Where taps are many, only so many as the coarser variants' errors ask for.

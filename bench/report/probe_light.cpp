@@ -330,7 +330,8 @@ std::vector<Job> probe_light_grid(Session& session, std::vector<std::string>& mi
   const auto scene = [&](const SceneSetting& s) { jobs.push_back({label(s), [&session, s] { return measure_scene(session, s); }}); };
   for (const Place& place : places(missing)) {
     if (quick && place.name.starts_with("Sponza")) continue;
-    for (const int probes : quick || session.is_cpu() ? std::vector<int>{4} : std::vector<int>{4, 8, 12})
+    const int few = place.name.starts_with("cornell") ? 4 : 8;  // a hall wants more than a room
+    for (const int probes : quick || session.is_cpu() ? std::vector<int>{few} : std::vector<int>{4, 8, 12})
       for (const bool visibility : {true, false})
         if (visibility || !quick) scene({place, probes, 32, 8, 16, visibility});
     if (quick || session.is_cpu()) continue;

@@ -5,7 +5,7 @@
 namespace luxel::report {
 namespace {
 
-// The last of each kind: the furthest of a list that goes outwards.
+// The last of each kind: the furthest of a list that goes outwards. Of more than a dozen kinds, some from all over the list.
 std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all) {
   const auto kind = [](const cases::Case& c) { return c.name.substr(0, c.name.find_first_of(",0123456789")); };
   std::map<std::string, const cases::Case*> last;
@@ -13,7 +13,11 @@ std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all) {
   std::vector<cases::Case> kept;
   for (const cases::Case& c : all)
     if (last[kind(c)] == &c) kept.push_back(c);
-  return kept;
+  constexpr std::size_t most = 12;
+  if (kept.size() <= most) return kept;
+  std::vector<cases::Case> some;
+  for (std::size_t i = 0; i < most; ++i) some.push_back(kept[i * kept.size() / most]);
+  return some;
 }
 
 }  // namespace

@@ -283,9 +283,10 @@ std::vector<Job> voxel_jobs(Session& session) {
     s.mode = mode;
     for (const Format format : {Format::f32x4, Format::f16x4, Format::unorm8x4}) {
       s.format = format;
-      add(s);
+      if (!quick || mode == VoxelizeMode::conservative || format == Format::f32x4) add(s);
     }
     s.format = Format::f32x4;
+    if (quick && mode != VoxelizeMode::conservative) continue;
     for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
       s.merging = merging;
       add(s);
@@ -312,7 +313,7 @@ std::vector<Job> voxel_jobs(Session& session) {
     for (const int parts : quick ? std::vector<int>{1, 64} : std::vector<int>{1, 16, 256}) {
       const cases::Mesh floor = floor_of(parts);
       Setting s{std::make_shared<const VoxelScene>(
-          VoxelScene{fmt::format("floor of {} triangles", floor.triangles()), floor, cases::unit_grid(256)})};
+          VoxelScene{fmt::format("floor of {} triangles", floor.triangles()), floor, cases::unit_grid(quick ? 128 : 256)})};
       s.errors = false;
       s.format = Format::unorm8x4;
       s.touched_only = true;
