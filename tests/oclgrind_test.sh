@@ -36,5 +36,7 @@ check cone_trace_clipmap_test 'ConeTraceClipmap.AMoved*'
 check octahedral_march_stability_test '*opencl_rays_inside*:*opencl_rays_along*:*opencl_all_eight_hidden__plus3*'
 check octahedral_march_build_test 'ProbeBuild.MinimumIs*'
 check hiz_ssr_test 'HizSsrSmall*'
+check lpv_stability_test '*opencl*order*'
+check probe_stability_test '*opencl*furnace*:*opencl*hidden*'
 check probe_irradiance_test 'ProbeIrradiance.ProbesThatAreNotListed*:ProbeIrradiance.BordersHold*'
 exit $failed
