@@ -92,39 +92,5 @@ std::vector<Setting> settings() {
 INSTANTIATE_TEST_SUITE_P(LightPropagation, LpvStep, testing::ValuesIn(settings()),
                          [](const auto& info) { return text(info.param); });
 
-TEST(LightPropagation, DISABLED_Time) {
-  for (const std::string& device : {std::string("opencl")})
-    for (const int side : {32, 64})
-      for (const int bands : {2})
-        for (const bool geometry : {false})
-          for (const LpvLobes lobes : {LpvLobes::linear}) {
-            LpvPropagateParams p = cases::lpv_params({side, side, side}, bands, lobes);
-            p.geometry = geometry, p.channels = 3, p.iterations = 16;
-            Context& context = test_context(device);
-            auto run = cases::Run::make(context, plan(p, context.profile()));
-            const Values light = cases::lpv_lights(p.grid, bands, 5, 1);
-            Values px = truth::lpv_to_pixels(p.grid, bands, light), all;
-            for (int c = 0; c < 3; ++c) all.insert(all.end(), px.begin(), px.end());
-            ASSERT_TRUE(run.value().write("injected", all).ok());
-            if (geometry) { ASSERT_TRUE(run.value().write("geometry", cases::lpv_surfels(p.grid, 1, 3)).ok()); }
-            Times best;
-            best.total = 1e9;
-            for (int k = 0; k < 10; ++k) {
-              Times t;
-              ASSERT_TRUE(run.value().go(1, &t).ok());
-              if (t.total < best.total) best = t;
-            }
-            const double cells = double(side) * side * side * 3;
-            const double step = best.passes.empty() ? 0 : best.passes[best.passes.size() - 3];
-            std::printf("%s %d^3 bands %d geo %d %s: total %.2f ms start %.2f step %.3f finish %.2f: %.1f GB/s of floor\n",
-                        device.c_str(), side, bands, geometry, cases::name(lobes), best.total,
-                        best.passes.empty() ? 0 : best.passes[0], step, best.passes.empty() ? 0 : best.passes.back(),
-                        cells * 16 * (bands == 3 ? 6 : 4) / step * 1e-6);
-            if (bands == 2 && !geometry && lobes == LpvLobes::linear)
-              for (double t : best.passes) std::printf("  %.3f", t);
-            std::printf("\n");
-          }
-}
-
 }  // namespace
 }  // namespace luxel

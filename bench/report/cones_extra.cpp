@@ -70,13 +70,7 @@ Status beside_sampling(Session& session, const ConeSetting& s) {
   const auto run = std::make_shared<cases::Run>(std::move(loop).value());
   if (Status status = run->write("volume", cases::quantise(s.world->voxels, s.params.format)); !status) return status;
   const auto pair = session.interleave(
-      timed(scene.value(), s.params),
-      [run]() -> Result<double> {
-        Times times;
-        if (Status status = run->go(1, &times); !status) return status;
-        return times.total;
-      },
-      "peer: sampling in a loop");
+      timed(scene.value(), s.params), timed(run), "peer: sampling in a loop");
   if (!pair) return pair.status();
   std::vector<double> r = ratios(pair.value().b, pair.value().a);
   for (double& v : r) v *= looks / (static_cast<double>(width) * height * each);

@@ -119,14 +119,6 @@ std::vector<Job> filter_grid(Session& session) {
 
 namespace {
 
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status s = run->go(1, &times); !s) return s;
-    return times.total;
-  };
-}
-
 }  // namespace
 
 // What a term costs that is left out where it is not asked for.

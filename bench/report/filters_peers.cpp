@@ -50,11 +50,7 @@ std::vector<Job> filter_peers(Session& session) {
            if (joint)
              if (Status s = run->write("guide", images.guide); !s) return s;
            if (Status s = run->go(); !s) return s;
-           const Session::Timed own = [run]() -> Result<double> {
-             Times times;
-             if (Status s = run->go(1, &times); !s) return s;
-             return times.total;
-           };
+           const Session::Timed own = timed(run);
            const Result<OpenCvFilter> peer =
                bits8 ? opencv_filter8(p, images.src, which == Peer::bits8_opencl ? session.device() : std::string())
                      : opencv_filter(p, images.src, joint ? images.guide : Values());

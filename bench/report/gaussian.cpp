@@ -189,11 +189,7 @@ Result<Session::Timed> timed_blur(Session& session, const BlurSetting& s) {
   const auto run = std::make_shared<Run>(std::move(made).value());
   if (Status status = run->write("src", in_format(*s.scene, s.params.format)); !status) return status;
   if (Status status = run->go(); !status) return status;
-  return Session::Timed([run]() -> Result<double> {
-    Times times;
-    if (Status status = run->go(1, &times); !status) return status;
-    return times.total;
-  });
+  return timed(run);
 }
 
 }  // namespace luxel::report

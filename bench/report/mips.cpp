@@ -197,14 +197,6 @@ Result<std::shared_ptr<Run>> ready_mips(Session& session, const MipSetting& s) {
   return run;
 }
 
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status status = run->go(1, &times); !status) return status;
-    return times.total;
-  };
-}
-
 double mip_bytes(Session& session, const MipSetting& s) {
   const Result<Plan> made = plan_of(s, session.context().profile());
   return made ? made.value().bytes : 0;

@@ -49,8 +49,6 @@ Status measure_mips(Session& session, const MipSetting& setting, bool drift = fa
 
 /// A compiled run with level 0 in place.
 Result<std::shared_ptr<cases::Run>> ready_mips(Session& session, const MipSetting& setting);
-Session::Timed timed(const std::shared_ptr<cases::Run>& run);
-
 /// Bytes that a pyramid reads and writes at least, of a plan made for the device.
 double mip_bytes(Session& session, const MipSetting& setting);
 

@@ -13,7 +13,7 @@
 #include <luxel/probe_trace.h>
 
 #include "bench/report/bench.h"
-#include "bench/report/limits.h"
+#include "bench/report/dependent_reads.h"
 #include "bench/scene/images.h"
 #include "bench/truth/probe_scene.h"
 #include "tests/cases/octahedral_march_support.h"
@@ -145,14 +145,6 @@ Result<std::shared_ptr<Run>> ready(Session& session, const ProbeField& f, const 
     if (Status s = run->write(r.name, v); !s) return s;
   }
   return run;
-}
-
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status s = run->go(1, &times); !s) return s;
-    return times.total;
-  };
 }
 
 std::uint64_t bits_of(Values a, const Values& b) {
@@ -411,7 +403,6 @@ Status beside_embree(Session& session, const std::string& name, std::size_t rays
   return {};
 }
 
-// Looks a second beside a loop in which every address is the last value read.
 Status beside_march(Session& session, std::size_t rays, int size, const Count& count) {
   const auto found = world_of("atrium", rays);
   if (!found) return found.status();
@@ -420,43 +411,12 @@ Status beside_march(Session& session, std::size_t rays, int size, const Count& c
   const auto own = ready(session, *f, compact(size), usual(), world.asked.rays);
   if (!own) return own.status();
   // The distances of all probes, two a word, and their minima.
-  const int entries = static_cast<int>(std::min<std::size_t>((probe_distance_elements(compact(size), f->probes.size()) +
-                                                              probe_minimum_elements(compact(size), f->probes.size())), (1u << 24) - 1));
-  constexpr int invocations = 1 << 17, steps = 64;
-  auto made = Run::make(session.context(), march_plan(invocations, entries, steps, session.context().profile()));
-  if (!made) return made.status();
-  const auto loop = std::make_shared<Run>(std::move(made).value());
-  std::vector<int> order(static_cast<std::size_t>(entries));
-  for (int i = 0; i < entries; ++i) order[static_cast<std::size_t>(i)] = i;
-  for (int i = entries - 1; i > 0; --i)
-    std::swap(order[static_cast<std::size_t>(i)], order[scene::hash(static_cast<std::uint32_t>(i)) % static_cast<std::uint32_t>(i)]);
-  if (Status s = loop->write("links", Values(order.begin(), order.end())); !s) return s;
-  const auto pair = session.interleave(timed(own.value()), timed(loop), "peer: a march of dependent reads");
-  if (!pair) return pair.status();
-  const auto hits = own.value()->read("hits");
-  if (!hits) return hits.status();
-  double looks = 0;
-  for (std::size_t i = 3; i < hits.value().size(); i += 4) looks += hits.value()[i];
-  const double marched = march_steps(invocations, steps);
-  std::vector<double> r = ratios(pair.value().b, pair.value().a);
-  for (double& v : r) v *= looks / marched;
-  const Sample ratio = summarise(r);
-  session.row("peers", {{"peer", fmt::format("dependent reads of a table of the maps' size, {:.0f} M/s; ours {:.1f} looks a ray",
-                                             marched / summarise(pair.value().b).median * 1e-3, looks / static_cast<double>(rays))},
-                        {"version", "-"},
-                        {"kernel", "octahedral_march"},
-                        {"size", fmt::format("{}^2, {} probes", size, f->probes.size())},
-                        {"time_ms", to_json(summarise(pair.value().b))},
-                        {"error", nullptr},
-                        {"ratio", ratio.median},
-                        {"q1", ratio.q1},
-                        {"q3", ratio.q3},
-                        {"device", session.device()},
-                        {"options", {{"variant", "two levels"}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
-                        {"own_error", nullptr},
-                        {"goal", 0.5}});
-  return {};
+  const std::size_t entries = probe_distance_elements(compact(size), f->probes.size()) +
+                              probe_minimum_elements(compact(size), f->probes.size());
+  return beside_dependent_reads(session, own.value(),
+                                {"octahedral_march", "two levels", fmt::format("{}^2, {} probes", size, f->probes.size()),
+                                 "the maps'", "hits", static_cast<double>(rays),
+                                 static_cast<int>(std::min<std::size_t>(entries, (1u << 24) - 1))});
 }
 
 }  // namespace

@@ -91,14 +91,6 @@ Result<std::shared_ptr<Run>> ready(Context& context, const LpvPropagateParams& p
   return run;
 }
 
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status s = run->go(1, &times); !s) return s;
-    return times.total;
-  };
-}
-
 Result<Values> result_of(Context& context, const LpvPropagateParams& p, std::uint64_t* bits = nullptr) {
   const auto run = ready(context, p, point_light(p));
   if (!run) return run.status();

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/report/limits.h"
+#include "bench/report/dependent_reads.h"
 #include "bench/scene/images.h"
 #include "bench/scene/screen.h"
 #include "tests/cases/compare.h"
@@ -73,14 +73,6 @@ Result<std::shared_ptr<Run>> ready(Session& session, ScreenWorld& world, const H
   if (p.count)
     if (Status s = run->write("counters", Values(ssr_outcomes, 0.0)); !s) return s;
   return run;
-}
-
-Session::Timed timed(const std::shared_ptr<Run>& run) {
-  return [run]() -> Result<double> {
-    Times times;
-    if (Status s = run->go(1, &times); !s) return s;
-    return times.total;
-  };
 }
 
 const char* name(SsrVariant v) {
@@ -237,51 +229,15 @@ Status tiles(Session& session, int width, int height) {
   return {};
 }
 
-// Looks a second beside a loop in which every address is the last value read.
 Status beside_march(Session& session, int width, int height) {
   const auto found = world_of(width, height);
   if (!found) return found.status();
   ScreenWorld& world = *found.value();
   const auto own = ready(session, world, world.params, world.normals);
   if (!own) return own.status();
-  const int entries = static_cast<int>(hiz_ssr_depth_texels(world.params));
-  constexpr int invocations = 1 << 17, steps = 64;
-  auto made = Run::make(session.context(), march_plan(invocations, entries, steps, session.context().profile()));
-  if (!made) return made.status();
-  const auto loop = std::make_shared<Run>(std::move(made).value());
-  // One cycle through the whole table, in a random order.
-  std::vector<int> order(static_cast<std::size_t>(entries));
-  for (int i = 0; i < entries; ++i) order[static_cast<std::size_t>(i)] = i;
-  for (int i = entries - 1; i > 0; --i)
-    std::swap(order[static_cast<std::size_t>(i)], order[scene::hash(static_cast<std::uint32_t>(i)) % static_cast<std::uint32_t>(i)]);
-  if (Status s = loop->write("links", Values(order.begin(), order.end())); !s) return s;
-  const auto pair = session.interleave(timed(own.value()), timed(loop), "peer: a march of dependent reads");
-  if (!pair) return pair.status();
-  const auto paths = own.value()->read("paths");
-  if (!paths) return paths.status();
-  double looks = 0;
-  for (std::size_t i = 3; i < paths.value().size(); i += 4) looks += paths.value()[i];
-  const double marched = march_steps(invocations, steps);
-  std::vector<double> r = ratios(pair.value().b, pair.value().a);
-  for (double& v : r) v *= looks / marched;
-  const Sample ratio = summarise(r);
-  session.row("peers", {{"peer", fmt::format("dependent reads of a table of the pyramid's size, {:.0f} M/s; ours {:.1f} looks a ray",
-                                             marched / summarise(pair.value().b).median * 1e-3,
-                                             looks / (static_cast<double>(width) * height))},
-                        {"version", "-"},
-                        {"kernel", "hiz_ssr"},
-                        {"size", fmt::format("{}x{}", width, height)},
-                        {"time_ms", to_json(summarise(pair.value().b))},
-                        {"error", nullptr},
-                        {"ratio", ratio.median},
-                        {"q1", ratio.q1},
-                        {"q3", ratio.q3},
-                        {"device", session.device()},
-                        {"options", {{"variant", "hiz"}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
-                        {"own_error", nullptr},
-                        {"goal", 0.5}});
-  return {};
+  return beside_dependent_reads(session, own.value(),
+                                {"hiz_ssr", "hiz", fmt::format("{}x{}", width, height), "the pyramid's", "paths",
+                                 static_cast<double>(width) * height, static_cast<int>(hiz_ssr_depth_texels(world.params))});
 }
 
 }  // namespace

@@ -274,4 +274,12 @@ void Session::emit_promises() {
          {"pass", share.most <= 1}});
 }
 
+Session::Timed timed(const std::shared_ptr<cases::Run>& run) {
+  return [run]() -> Result<double> {
+    Times times;
+    if (Status status = run->go(1, &times); !status) return status;
+    return times.total;
+  };
+}
+
 }  // namespace luxel::report

@@ -117,4 +117,7 @@ class Session {
   std::map<std::pair<std::string, std::string>, Share> shares_;
 };
 
+/// Milliseconds of one run of `run`, for Session::interleave.
+Session::Timed timed(const std::shared_ptr<cases::Run>& run);
+
 }  // namespace luxel::report
