@@ -420,6 +420,7 @@ END
 expect 2 'expected either --scene, or --radiance, --distance or --normal files' "$luxel" probes build -o box
 expect 2 '--grid: |ProbeGrid.count is 0; expected 1\.\.1024' "$luxel" probes build --scene cornell --grid 0,1,1 -o box
 expect 2 'ProbeMaps.size is 33; expected an even number' "$luxel" probes build --scene cornell --resolution 33 -o box
+expect 2 '^luxel: probes build: --resolution: 15 is out of range; .*see `luxel probes build --help`$' "$luxel" probes build --scene cornell --resolution 15 -o box
 expect 0 'probes build: 8 probes in cornell, 2 inside geometry, 32\^2 texels each; wrote box' "$luxel" probes build --scene cornell --resolution 32 -o box
 expect 0 'probes show: radiance of probe 7 of box, 32x32; wrote seven.png' "$luxel" probes show --probes box --probe 7 -o seven.png
 expect 2 '--probe is 8; expected 0\.\.7' "$luxel" probes show --probes box --probe 8 -o seven.png

@@ -26,8 +26,15 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
+// "probes build"; empty: the program itself.
+std::string name_of(const CLI::App& command) {
+  if (command.get_parent() == nullptr) return "";
+  const std::string parent = name_of(*command.get_parent());
+  return parent.empty() ? command.get_name() : parent + " " + command.get_name();
+}
+
 std::string help_of(const CLI::App& command) {
-  return command.get_parent() == nullptr ? "luxel --help" : fmt::format("luxel {} --help", command.get_name());
+  return command.get_parent() == nullptr ? "luxel --help" : fmt::format("luxel {} --help", name_of(command));
 }
 
 // A word that no command or option claimed.
@@ -40,8 +47,8 @@ std::string unknown_word(const CLI::App& app, const std::string& word) {
     for (const CLI::App* c : app.get_subcommands({})) candidates.push_back(c->get_name());
   }
   if (!option && &command != &app)
-    return fmt::format("{}: unexpected argument {}; see `{}`", command.get_name(), word, help_of(command));
-  const std::string prefix = &command == &app ? "" : command.get_name() + ": ";
+    return fmt::format("{}: unexpected argument {}; see `{}`", name_of(command), word, help_of(command));
+  const std::string prefix = &command == &app ? "" : name_of(command) + ": ";
   const std::string near = closest(word.substr(0, word.find('=')), candidates);
   return fmt::format("{}unknown {} {}; {}see `{}`", prefix, option ? "option" : "command", word,
                      near.empty() ? "" : fmt::format("did you mean {}? ", near), help_of(command));
@@ -53,7 +60,7 @@ int parse_failure(const CLI::App& app, const CLI::ParseError& error) {
   if (!left.empty() && left.front() != "--") return complain(unknown_word(app, left.front()), misused);
   if (&command == &app && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     return complain("no command given; see `luxel --help`", misused);
-  const std::string prefix = &command == &app ? "" : command.get_name() + ": ";
+  const std::string prefix = &command == &app ? "" : name_of(command) + ": ";
   return complain(fmt::format("{}{}; see `{}`", prefix, error.what(), help_of(command)), misused);
 }
 
