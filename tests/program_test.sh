@@ -423,6 +423,7 @@ expect 2 'ProbeMaps.size is 33; expected an even number' "$luxel" probes build -
 expect 2 '^luxel: probes build: --resolution: 15 is out of range; .*see `luxel probes build --help`$' "$luxel" probes build --scene cornell --resolution 15 -o box
 expect 0 'probes build: 8 probes in cornell, 2 inside geometry, 32\^2 texels each; wrote box' "$luxel" probes build --scene cornell --resolution 32 -o box
 expect 0 'probes show: radiance of probe 7 of box, 32x32; wrote seven.png' "$luxel" probes show --probes box --probe 7 -o seven.png
+expect 0 'probes show: distance of probe 0 of box \(inside geometry\), 32x32; wrote inside.png' "$luxel" probes show --probes box --map distance -o inside.png
 expect 2 '--probe is 8; expected 0\.\.7' "$luxel" probes show --probes box --probe 8 -o seven.png
 expect 2 'short\.npy: expected shape \[n\]\[8\]' "$luxel" probes trace --probes box --rays short.npy -o a.npy
 for device in $devices cpu:double; do

@@ -259,7 +259,9 @@ int show(const Arguments& a) {
       v = a.map == "normal" ? v / 2 + 0.5f : static_cast<float>(std::pow(std::clamp(v / std::max(white, 1e-30), 0.0, 1.0), a.map == "radiance" ? 1 / 2.2 : 1.0));
   }
   if (Status s = io::write_image(a.out, image); !s) return complain(s);
-  fmt::print("probes show: {} of probe {} of {}, {}x{}; wrote {}\n", a.map, a.probe, a.probes, f.size, f.size, a.out);
+  const bool dead = f.positions[4 * static_cast<std::size_t>(a.probe) + 3] == 0;
+  fmt::print("probes show: {} of probe {} of {}{}, {}x{}; wrote {}\n", a.map, a.probe, a.probes,
+             dead ? " (inside geometry)" : "", f.size, f.size, a.out);
   return done;
 }
 
