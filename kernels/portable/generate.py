@@ -12,6 +12,7 @@ A signature begins with a comment that the build reads:
 import argparse
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
 import sys
@@ -95,6 +96,28 @@ def pixel_modules(kinds, formats):
             if kind:
                 options["SRC_KIND"] = kind
             yield PREFIX.get(kind, "") + name, {**options, "SRC": src, "DST": dst or src}
+
+
+def read_mutants(path):
+    """[(name, file under kernels/, text, its replacement)] of a list of deliberate faults, and the regular expression of the
+    tests that are to notice them. Entries are blocks of four lines: name, file, "- text", "+ text"; text stands once in its file."""
+    tests, *blocks = path.read_text().strip().split("\n\n")
+    entries = [block.split("\n") for block in blocks]
+    for entry in entries:
+        if len(entry) != 4 or entry[2][:2] != "- " or entry[3][:2] != "+ ":
+            sys.exit(f"{path}: four lines are expected: name, file, - text, + text; not {entry}")
+        if (KERNELS / entry[1]).read_text().count(entry[2][2:]) != 1:
+            sys.exit(f"{path}: {entry[0]}: its text does not stand once in {entry[1]}")
+    return [(name, file, before[2:], after[2:]) for name, file, before, after in entries], tests.removeprefix("tests: ")
+
+
+def with_mutant(spec, out):
+    """A copy of the kernels, in `out`, with one deliberate fault. `spec`: a list, a colon, the number of a fault in it."""
+    path, _, number = spec.rpartition(":")
+    _, file, before, after = read_mutants(pathlib.Path(path))[0][int(number)]
+    shutil.copytree(KERNELS, out, dirs_exist_ok=True)
+    (out / file).write_text((KERNELS / file).read_text().replace(before, after))
+    return out
 
 
 def parse_build(signature):
@@ -257,8 +280,14 @@ def main():
     cli.add_argument("--part", required=True, type=pathlib.Path, help="path of the part without its endings")
     cli.add_argument("--out", required=True, type=pathlib.Path)
     cli.add_argument("--glslang", default="glslangValidator")
+    cli.add_argument("--mutant", help="LIST:NUMBER, a deliberate fault that is built in")
     args = cli.parse_args()
     part, out = args.part, args.out
+    if args.mutant:
+        global KERNELS
+        copy = with_mutant(args.mutant, out / "mutants" / part.name)
+        part = copy / part.resolve().relative_to(KERNELS)
+        KERNELS = copy
     stem = part.name
     signature = part.with_name(stem + ".signature.h").read_text()
     math, modules = parse_build(signature)
