@@ -355,6 +355,18 @@ sun = read('sun.npy')[1]
 assert all(abs(v - 0.6 * 3 / math.pi) < 1e-5 for v in sun), sun[:3]  # assimp's grey for OBJ faces without material
 END
 
+# ---- plan ----
+expect 2 '--method: rays is not known; expected cone, probe, lpv' "$luxel" plan --scene cornell --method rays
+expect 2 '--size: 0x9 is not understood' "$luxel" plan --scene cornell --size 0x9
+expect 0 'no sun, no sky, nothing emits' "$luxel" plan --scene atrium:5000 --size 16x9 --sun 0,1,0,0 --sky 0,0,0 --explain
+expect 0 'because the emitters are few enough to be lamps' "$luxel" plan --scene cornell --size 16x9 --explain
+expect 0 'specular cones where nothing reflects' "$luxel" plan --scene two_rooms --size 16x9 --measure --resolution 8 --repeats 1 --device cpu --json plan.json
+python3 - <<'END' || fail "plan --measure: leaving out is not without a trace" "$(cat plan.json)"
+import json
+saved = json.load(open("plan.json"))["left_out"]
+assert saved and all(row["error"] == 0 for row in saved), saved
+END
+
 # ---- Meshes into voxels
 voxelize=("$luxel" voxelize --resolution 16)
 expect 2 '--mesh is required' "${voxelize[@]}" -o v.npy

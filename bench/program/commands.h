@@ -16,6 +16,7 @@ void add_cone_trace(CLI::App& app, int& exit_status);
 void add_voxelize(CLI::App& app, int& exit_status);
 void add_probes(CLI::App& app, int& exit_status);
 void add_render(CLI::App& app, int& exit_status);
+void add_plan(CLI::App& app, int& exit_status);
 void add_bench(CLI::App& app, int& exit_status);
 void add_report(CLI::App& app, int& exit_status);
 

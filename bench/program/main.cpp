@@ -84,6 +84,7 @@ int run(int argc, char** argv) {
   add_cone_trace(app, exit_status);
   add_probes(app, exit_status);
   add_render(app, exit_status);
+  add_plan(app, exit_status);
   add_bench(app, exit_status);
   add_report(app, exit_status);
   try {

@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "common.h"
+#include "scene_options.h"
 
 namespace luxel::program {
 namespace {
@@ -29,8 +30,8 @@ constexpr RenderMethod methods[] = {
 constexpr const char* shown[] = {"all", "direct", "diffuse_indirect", "specular_indirect", "ambient_occlusion"};
 
 struct Arguments {
-  std::string scene, camera, size = "640x360", sun, sky, method = methods[0].name, device, out, buffers,
-                             show = shown[0];
+  SceneOptions view;
+  std::string method = methods[0].name, device, out, buffers, show = shown[0];
   double exposure = 0, ao_falloff = -1, ao_distance = 0;
   double thickness = 0;
   int ssr_rays = 4, reuse = 1;
@@ -49,35 +50,6 @@ struct Arguments {
 constexpr const char* lobe_names[] = {"linear", "clamp", "shrink", "rescale"};
 constexpr const char* blocker_names[] = {"none", "surfaces", "empty", "maps"};
 
-// Numbers between commas. Empty unless there are `count` and all are finite.
-std::vector<double> numbers(std::string_view text, std::size_t count) {
-  std::vector<double> values;
-  while (true) {
-    double v = 0;
-    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), v);
-    if (error != std::errc() || !std::isfinite(v)) return {};
-    values.push_back(v);
-    text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
-    if (text.empty()) break;
-    if (text.front() != ',') return {};
-    text.remove_prefix(1);
-  }
-  return values.size() == count ? values : std::vector<double>{};
-}
-
-Status wrong(const char* option, const std::string& text, const char* expected) {
-  return Status(Code::invalid_argument, fmt::format("--{}: {} is not understood; expected {}", option, text, expected));
-}
-
-Status set_camera(const std::string& text, scene::Camera& camera) {
-  const auto v = numbers(text, 7);
-  if (v.empty()) return wrong("camera", text, "ex,ey,ez,tx,ty,tz,fov: eye, target and vertical field in degrees");
-  camera = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, v[6]};
-  if (camera.eye == camera.target) return wrong("camera", text, "an eye away from its target");
-  if (!(camera.fov > 0 && camera.fov < 180)) return wrong("camera", text, "a field above 0 and below 180 degrees");
-  return {};
-}
-
 // "8": along the longest side, cells about cubes; "8,4,6": along each axis.
 Status set_probes(const std::string& text, const scene::Scene& scene, std::array<int, 3>& count) {
   auto v = numbers(text, 3);
@@ -91,48 +63,6 @@ Status set_probes(const std::string& text, const scene::Scene& scene, std::array
     for (std::size_t k = 0; k < 3; ++k) count[k] = static_cast<int>(v[k]);
   }
   if (count[0] * count[1] * count[2] > 65535) return wrong("probes", text, "65535 probes at most");
-  return {};
-}
-
-Status set_sun(const std::string& text, scene::Sun& sun) {
-  const auto v = numbers(text, 4);
-  if (v.empty()) return wrong("sun", text, "dx,dy,dz,E: direction towards the sun, and irradiance");
-  const dvec3 direction(v[0], v[1], v[2]);
-  const double length = glm::length(direction);
-  if (!(length > 0) || !std::isfinite(length)) return wrong("sun", text, "a direction that is not zero");
-  if (v[3] < 0) return wrong("sun", text, "an irradiance of 0 or more");
-  sun = {direction / length, dvec3(v[3])};
-  return {};
-}
-
-Status set_sky(const std::string& text, scene::Sky& sky) {
-  if (const auto v = numbers(text, 3); !v.empty()) {
-    if (std::min({v[0], v[1], v[2]}) < 0) return wrong("sky", text, "radiances of 0 or more");
-    sky = {{v[0], v[1], v[2]}, 0, 0, {}};
-    return {};
-  }
-  const Result<io::Image> read = io::read_image(text);
-  if (!read) return Status(Code::invalid_argument, fmt::format("--sky: {}", read.status().message()));
-  const io::Image& image = read.value();
-  sky = {dvec3(1), image.width, image.height, {}};
-  const std::size_t channels = static_cast<std::size_t>(image.channels);
-  for (std::size_t i = 0; i < image.pixels.size(); i += channels)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float v = image.pixels[i + (channels < 3 ? 0 : c)];
-      sky.image.push_back(v > 0 && std::isfinite(v) ? v : 0.0f);
-    }
-  return {};
-}
-
-Status set_size(const std::string& text, int& width, int& height) {
-  constexpr const char* expected = "WxH, each 1..8192, 2^23 pixels at most";  // truth takes a kilobyte for each
-  const char* end = text.data() + text.size();
-  const auto w = std::from_chars(text.data(), end, width);
-  if (w.ec != std::errc() || w.ptr == end || *w.ptr != 'x') return wrong("size", text, expected);
-  const auto h = std::from_chars(w.ptr + 1, end, height);
-  if (h.ec != std::errc() || h.ptr != end) return wrong("size", text, expected);
-  if (width < 1 || height < 1 || width > 8192 || height > 8192 || width * height > 1 << 23)
-    return wrong("size", text, expected);
   return {};
 }
 
@@ -187,32 +117,21 @@ Status write_buffers(const std::string& folder, const scene::GBuffer& g, const s
 
 int run(const Arguments& a) {
   if (Status s = io::check_image_path(a.out); !s) return complain(s);
-  int width = 0, height = 0;
-  if (Status s = set_size(a.size, width, height); !s) return complain(s);
   const auto method =
       std::find_if(std::begin(methods), std::end(methods), [&](const RenderMethod& m) { return m.name == a.method; });
-  scene::Camera camera;
-  scene::Sun sun;
-  scene::Sky sky;
-  if (!a.camera.empty())
-    if (Status s = set_camera(a.camera, camera); !s) return complain(s);
-  if (!a.sun.empty())
-    if (Status s = set_sun(a.sun, sun); !s) return complain(s);
-  if (!a.sky.empty())
-    if (Status s = set_sky(a.sky, sky); !s) return complain(s);
+  const auto chosen = parse(a.view);
+  if (!chosen) return complain(chosen.status());
+  const SceneChoice& choice = chosen.value();
 
   Clock clock;
-  auto read = scene::scene_from(a.scene);
-  if (!read) return complain(read.status(), true);
-  scene::Scene& scene = read.value();
-  if (!a.camera.empty()) scene.camera = camera;
-  if (!a.sun.empty()) scene.sun = sun;
-  if (!a.sky.empty()) scene.sky = sky;
+  const auto found = read(a.view, choice);
+  if (!found) return complain(found.status(), true);
+  const scene::Scene& scene = found.value();
   std::vector<StepTime> times{{"build", "read", clock.ms()}};
   const auto rays = scene::Rays::make(scene);
   if (!rays) return complain(rays.status());
   times.push_back({"build", "tree", clock.ms()});
-  const scene::GBuffer g = scene::gbuffer(rays.value(), scene.camera, width, height);
+  const scene::GBuffer g = scene::gbuffer(rays.value(), scene.camera, choice.width, choice.height);
   times.push_back({"shade", "gbuffer", clock.ms()});
 
   const scene::Bounds box = bounds(scene);
@@ -269,8 +188,8 @@ int run(const Arguments& a) {
   if (!a.buffers.empty())
     if (Status s = write_buffers(a.buffers, g, parts, output); !s) return complain(s);
 
-  fmt::print("render {} {} ({} triangles) {}x{}, {}; wrote {}{}\n", a.method, scene.name, scene.indices.size(), width,
-             height, a.show, a.out, changes_text(changes));
+  fmt::print("render {} {} ({} triangles) {}x{}, {}; wrote {}{}\n", a.method, scene.name, scene.indices.size(), choice.width,
+             choice.height, a.show, a.out, changes_text(changes));
   for (const char* phase : {"build", "update", "shade"}) {
     std::string line;
     for (const StepTime& t : times)
@@ -280,27 +199,6 @@ int run(const Arguments& a) {
   for (const std::string& note : output.notes) fmt::print("  {}\n", note);
   for (const std::string& note : scene.notes) fmt::print("  note: {}\n", one_line(note));
   return done;
-}
-
-template <class Names>
-CLI::Validator one_of(const Names& names) {
-  return CLI::Validator(
-      [names](std::string& text) {
-        if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
-        return fmt::format("{} is not known; expected {}", text, fmt::join(names, ", "));
-      },
-      "");
-}
-
-CLI::Validator within(double least, double most, bool whole) {
-  return CLI::Validator(
-      [=](std::string& text) {
-        const auto v = numbers(text, 1);
-        if (!v.empty() && v[0] >= least && v[0] <= most && (!whole || v[0] == std::floor(v[0]))) return std::string();
-        return fmt::format("{} is {}; expected {}{}..{}", text, v.empty() ? "not a number" : "out of range",
-                           whole ? "a whole number " : "", least, most);
-      },
-      "");
 }
 
 }  // namespace
@@ -315,12 +213,7 @@ void add_render(CLI::App& app, int& exit_status) {
     names.emplace_back(m.name);
     meanings += fmt::format("{}{}: {}", meanings.empty() ? "" : "; ", m.name, m.meaning);
   }
-  command
-      ->add_option("--scene", a->scene,
-                   fmt::format("{}, atrium:N (N triangles), or a file: OBJ, PLY, glTF, GLB ...",
-                               fmt::join(scene::built_in_names(), ", ")))
-      ->required()
-      ->type_name("NAME|FILE");
+  add_scene_options(*command, a->view, "640x360");
   command
       ->add_option("-o,--out", a->out,
                    "picture: .png (with exposure and the sRGB curve), .exr, .hdr or .npy (linear radiance)")
@@ -334,15 +227,6 @@ void add_render(CLI::App& app, int& exit_status) {
       ->check(one_of(parts));
   command->add_option("--buffers", a->buffers, "folder for the G-buffer, each part, and what the method knows, as EXR")
       ->type_name("DIR");
-  command->add_option("--camera", a->camera, "eye, target and vertical field in degrees; default: the scene's")
-      ->type_name("ex,ey,ez,tx,ty,tz,fov");
-  command->add_option("--size", a->size, "pixels, each side 1..8192, 2^23 at most; default 640x360")->type_name("WxH");
-  command
-      ->add_option("--sun", a->sun,
-                   "direction towards the sun, and irradiance on a plane that faces it; default: the scene's")
-      ->type_name("dx,dy,dz,E");
-  command->add_option("--sky", a->sky, "radiance, or a latitude-longitude image, +y up; default: the scene's")
-      ->type_name("r,g,b|FILE");
   command->add_option("--exposure", a->exposure, "stops, -60..60; of PNG alone; default 0")
       ->type_name("EV")
       ->check(within(-60, 60, false));

@@ -113,6 +113,7 @@ Status VoxelScene::voxelize() {
   p.mode = settings_.mode;
   p.format = settings_.format;
   p.normal = true;
+  p.emission = p.emission || settings_.keep.emission;
   emission_ = p.emission;
   auto plan = luxel::plan(p, context_->profile());
   if (!plan) return plan.status();
@@ -379,8 +380,8 @@ Status VoxelScene::light() {
   light_steps_.clear();
   const bool sky = !scene_.sky.dark();
   const bool lamps = emission_ && !sky && emitting_triangles(scene_) <= static_cast<std::size_t>(settings_.lamp_pieces);
-  gathered_ = sky || (emission_ && !lamps);
-  if (sky || emission_) {
+  gathered_ = sky || (emission_ && !lamps) || settings_.keep.gathering;
+  if (sky || emission_ || gathered_) {
     if (Status s = inject(own_, emission_, {}, {}, "voxel_inject emission"); !s) return s;
     if (Status s = mip(own_, "mip_build emission"); !s) return s;
   }

@@ -19,6 +19,12 @@ namespace luxel::scene {
 /// in all. Both of a triangle's sides emit.
 std::vector<VoxelLight> voxel_lights_of(const Scene& scene, int pieces);
 
+/// Work that a scene has no use for and that is done all the same, to measure what leaving it out saves.
+struct VoxelKeep {
+  bool emission = false;   // volumes of emitted light, and what is made of them
+  bool gathering = false;  // cones that gather direct light: from the sky, from emitters that are no lamps
+};
+
 struct VoxelSceneSettings {
   int resolution = 128;
   Format format = Format::f16x4;  // of every volume
@@ -32,6 +38,7 @@ struct VoxelSceneSettings {
   int lamp_pieces = 64;  // emitting triangles are lights of about so many pieces where they are no more than these and
                          // no sky shines: lamps. Else cones gather what they send
   int voxel_cones = 6;   // cones of a voxel that sky and many emitters light
+  VoxelKeep keep;
 };
 
 /// What a step took: milliseconds of the device (where it has a clock, else of the host).

@@ -358,14 +358,26 @@ void add_variance(std::vector<Case>& cases) {
          }
          return most;
        }});
-  cases.push_back({"variance", "spatial, one NaN", "it does not count: all are finite (values that are not)", 0,
+  cases.push_back({"variance", "spatial, one NaN",
+                   "it does not count: where it is a neighbour, the variance of the 48 others (largest difference)", 1e-6,
                    [=](Context& context) -> Result<double> {
                      Values src = noise;
-                     src[700] = nan;
+                     constexpr int x = 20, y = 17;
+                     src[y * width + x] = nan;
                      const auto out = spread(context, src);
                      if (!out) return out.status();
-                     return std::count_if(out.value().begin(), out.value().end(),
-                                          [](double v) { return !std::isfinite(v); });
+                     double sum = 0, squares = 0;
+                     for (int j = y - 2; j <= y + 4; ++j)
+                       for (int i = x - 2; i <= x + 4; ++i)
+                         if (i != x || j != y) {
+                           sum += noise[j * width + i];
+                           squares += noise[j * width + i] * noise[j * width + i];
+                         }
+                     const double there = out.value()[(y + 1) * width + x + 1];
+                     const double most = std::fabs(there - (squares - sum * sum / 48) / 47);
+                     for (const double v : out.value())
+                       if (!std::isfinite(v)) return HUGE_VAL;
+                     return most;
                    }});
   cases.push_back({"variance", "temporal, 64 frames",
                    "with alpha 0, the variance of the frames that were seen (largest relative difference)", 1e-4,
@@ -422,6 +434,39 @@ Result<Clamped> clamped(Context& context, OutlierVariant variant, const Values& 
   return Clamped{run.read("dst").value(), run.read("counters").value()};
 }
 
+// What clamping gives, from sorted neighbours: luminance within the middle +- k spreads, colour scaled with it.
+Values clamped_by_definition(OutlierVariant variant, const Values& src) {
+  const auto luminance = [&](int x, int y) {
+    const double* v = &src[4 * (static_cast<std::size_t>(y) * width + x)];
+    return 0.2126 * v[0] + 0.7152 * v[1] + 0.0722 * v[2];
+  };
+  const auto median = [](Values v) {
+    std::sort(v.begin(), v.end());
+    return (v[(v.size() - 1) / 2] + v[v.size() / 2]) / 2;
+  };
+  Values expected = src;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      Values around;
+      for (int j = std::max(y - 2, 0); j <= std::min(y + 2, height - 1); ++j)
+        for (int i = std::max(x - 2, 0); i <= std::min(x + 2, width - 1); ++i)
+          if (i != x || j != y) around.push_back(luminance(i, j));
+      double middle = 0, spread = 0;
+      if (variant == OutlierVariant::mean) {
+        for (const double l : around) middle += l / static_cast<double>(around.size());
+        for (const double l : around) spread += (l - middle) * (l - middle) / static_cast<double>(around.size() - 1);
+        spread = std::sqrt(spread);
+      } else {
+        middle = median(around);
+        for (double& l : around) l = std::fabs(l - middle);
+        spread = 1.4826 * median(around);
+      }
+      const double l = luminance(x, y), kept = std::clamp(l, middle - 3 * spread, middle + 3 * spread);
+      for (int c = 0; c < 3; ++c) expected[4 * (static_cast<std::size_t>(y) * width + x) + c] *= kept / l;
+    }
+  return expected;
+}
+
 void add_outliers(std::vector<Case>& cases) {
   for (const OutlierVariant variant : {OutlierVariant::mean, OutlierVariant::median}) {
     const std::string tag = variant == OutlierVariant::mean ? "mean" : "median";
@@ -451,6 +496,19 @@ void add_outliers(std::vector<Case>& cases) {
                        for (std::size_t i = 0; i < src.size(); ++i)
                          if (i / 4 != at / 4 && !(std::fabs(v[i] - src[i]) <= 0.1)) ++bad;
                        return bad + (out.value().counters[0] >= 1 && out.value().counters[1] == 0 ? 0 : 1);
+                     }});
+    cases.push_back({"outlier_clamp", "by its definition, " + tag,
+                     "bright and dark specks come to the bound on their side (largest difference)", 2e-6,
+                     [=](Context& context) -> Result<double> {
+                       Values src = scene::noise(width, height, 4, 61);
+                       for (std::size_t i = 0; i < src.size() / 4; ++i)
+                         for (std::size_t c = 0; c < 3; ++c) {
+                           double& v = src[4 * i + c];
+                           v = static_cast<float>((0.5 + 0.1 * v) * (i % 37 == 5 ? 8 : i % 41 == 9 ? 0.125 : 1));
+                         }
+                       const auto out = clamped(context, variant, src);
+                       if (!out) return out.status();
+                       return max_difference(out.value().dst, clamped_by_definition(variant, src));
                      }});
     cases.push_back({"outlier_clamp", "NaN and infinity, " + tag,
                      "become grey of what is around, are counted apart, and count nowhere (things wrong)", 0,
