@@ -18,6 +18,7 @@
 #include "bench/report/probes.h"
 #include "bench/report/probe_light.h"
 #include "bench/report/rendered.h"
+#include "bench/report/scene_savings.h"
 #include "bench/report/screens.h"
 #include "bench/report/session.h"
 #include "bench/report/stability.h"
@@ -94,6 +95,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
   if (settings.wants("cone_trace")) {
     append(jobs, cone_grid(session));
     append(jobs, cone_left_out(session));
+    append(jobs, scene_left_out(session, missing));
     append(jobs, cone_reproduction(session));
     append(jobs, cone_peers(session));
     append(jobs, stability_jobs(session, cases::cone_trace_cases()));

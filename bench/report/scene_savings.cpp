@@ -4,6 +4,10 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
+
+#include "bench/report/probe_light.h"
+#include "bench/report/stage.h"
 #include "bench/scene/interleaved.h"
 
 namespace luxel::report {
@@ -113,6 +117,49 @@ Result<std::vector<SceneSaving>> scene_savings(std::shared_ptr<Context> context,
     savings.push_back(saving);
   }
   return savings;
+}
+
+namespace {
+
+Status scene_rows(Session& session, const Place& place, bool sky) {
+  auto read = scene::scene_from(place.scene);
+  if (!read) return read.status();
+  scene::Scene& s = read.value();
+  if (place.camera.fov > 0) s.camera = place.camera;
+  if (!sky) s.sky = {};
+  const auto rays = scene::Rays::make(s);
+  if (!rays) return rays.status();
+  const bool quick = session.settings().quick;
+  const int resolution = quick ? 16 : 64;
+  const scene::GBuffer g = scene::gbuffer(rays.value(), s.camera, quick ? 32 : 160, quick ? 18 : 90);
+  const auto savings = scene_savings(borrowed(session), s, rays.value(), g, resolution, quick ? 2 : 5);
+  if (!savings) return savings.status();
+  for (const SceneSaving& saving : savings.value())
+    session.row("left_out", {{"kernel", "cone_trace"},
+                             {"scene", fmt::format("{}{} {}^3", place.name, sky ? "" : ", no sky", resolution)},
+                             {"what", saving.what},
+                             {"level", saving.level},
+                             {"saved_ms", saving.saved.median},
+                             {"saved_bytes", saving.saved_bytes},
+                             {"error", saving.error},
+                             {"device", session.device()}});
+  return {};
+}
+
+}  // namespace
+
+std::vector<Job> scene_left_out(Session& session, std::vector<std::string>& missing) {
+  if (session.is_cpu()) return {};
+  std::vector<Job> jobs;
+  const auto add = [&](const Place& place, bool sky) {
+    jobs.push_back({"left out of a scene: " + place.name, [&session, place, sky] { return scene_rows(session, place, sky); }});
+  };
+  add({"two_rooms (generated)", "two_rooms", {{}, {}, 0}}, true);
+  if (session.settings().quick) return jobs;
+  add({"furnace (generated)", "furnace", {{}, {}, 0}}, true);
+  for (const Place& place : places(missing))
+    if (place.scene != "cornell") add(place, false);
+  return jobs;
 }
 
 }  // namespace luxel::report

@@ -6,6 +6,7 @@
 
 #include <luxel/device.h>
 
+#include "bench/report/session.h"
 #include "bench/report/stats.h"
 #include "bench/scene/gbuffer.h"
 #include "bench/scene/scene_plan.h"
@@ -26,5 +27,8 @@ struct SceneSaving {
 Result<std::vector<SceneSaving>> scene_savings(std::shared_ptr<Context> context, const scene::Scene& scene,
                                                const scene::Rays& rays, const scene::GBuffer& gbuffer, int resolution,
                                                int repeats);
+
+/// Rows of `left_out` for whole scenes; atrium and Sponza under the sun alone, since a sky has a use for all but gloss.
+std::vector<Job> scene_left_out(Session& session, std::vector<std::string>& missing);
 
 }  // namespace luxel::report
