@@ -61,7 +61,7 @@ def test_double_is_double():
     image = RANDOM.random((9, 11, 4))
     out = luxel.gaussian_blur(image, 2, radius=6, device="cpu:double")
     assert out.dtype == np.float64
-    assert np.abs(out - blurred(image.astype(np.float32), 2, 6)).max() <= 1e-13
+    assert np.abs(out - blurred(image, 2, 6)).max() <= 1e-14
 
 
 def test_arrays_need_not_lie_in_order_and_speak_dlpack():
@@ -106,11 +106,11 @@ def test_a_box_in_voxels_and_cones(device):
     filled = volume[..., 3] > 0
     assert filled[8, 8, 0] or filled[8, 8, 1], "a wall"
     assert not filled[8, 8, 8], "its inside is empty"
-    # A closed room of radiance 1: irradiance pi, nothing visible beyond.
+    # A closed room of radiance 1 whose walls are a voxel thick: what is not seen of it is seen beyond it.
     glowing = np.where(filled[..., None], np.float32(1), np.float32(0)) * np.ones(4, np.float32)
     light = luxel.cone_trace(glowing, [[0.5, 0.5, 0.5]], [[0, 0, 1]], origin=origin, voxel=voxel, device=device)
     assert light.shape == (1, 4)
-    assert np.abs(light[0, :3] / np.pi - 1).max() < 0.05 and light[0, 3] < 0.05
+    assert np.abs(light[0, :3] / np.pi + light[0, 3] - 1).max() < 1e-5 and light[0, 3] < 0.2
 
 
 @pytest.mark.parametrize("device", DEVICES)
