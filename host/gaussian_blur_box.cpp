@@ -69,7 +69,7 @@ void plan_box(const GaussianBlurParams& p, const Profile& profile, Planner& plan
   const Slot weights = planner.table({rounded.whole, rounded.part}, {exact.whole, exact.part});
   const int window = 2 * box.radius + 1;
   // Few sizes, so that one compilation serves many a sigma. The longest window, of sigma 10000 in one pass, has 34641 pixels.
-  const int chunk = window <= 16 ? 16 : window <= 64 * 64 ? 64 : 256;
+  const int chunk = window == 1 ? 1 : window <= 16 ? 16 : window <= 64 * 64 ? 64 : 256;
   const int chunks = (window + chunk - 1) / chunk, most_chunks = chunks == 1 ? 1 : chunk;
   const Slot nothing = planner.scratch(Format::f32x1, 1);
 
