@@ -205,8 +205,9 @@ void plan_separable(const GaussianBlurParams& p, const Profile& profile, Planner
                  {static_cast<std::uint32_t>((p.width + across - 1) / across),
                   static_cast<std::uint32_t>((p.height + down - 1) / down), 1},
                  shape.workgroup,
-                 {{"width", p.width}, {"height", p.height}, {"src_stride", in.stride}, {"dst_stride", out.stride}},
-                 {{"RADIUS", r}, {"AXIS", axis}, {"BORDER", static_cast<int>(p.border)}, {"DIFFERENCE", p.difference},
+                 {{"width", p.width}, {"height", p.height}, {"src_stride", in.stride}, {"dst_stride", out.stride},
+                  {"radius", r}},
+                 {{"RADIUS", r <= shape.unroll ? r : 0}, {"AXIS", axis}, {"BORDER", static_cast<int>(p.border)}, {"DIFFERENCE", p.difference},
                   {"KEEP_ALPHA", p.keep_alpha}, {"UNROLLED", r <= shape.unroll}, {"SPLIT", shape.split}, {"LANES", lanes},
                   {"BLOCK", shape.block}},
                  {{"src", in.slot}, {"dst", out.slot}, {"weights", weights}});

@@ -68,8 +68,9 @@ void plan_box(const GaussianBlurParams& p, const Profile& profile, Planner& plan
   const Weights exact = exact_weights(box), rounded = rounded_weights(box);
   const Slot weights = planner.table({rounded.whole, rounded.part}, {exact.whole, exact.part});
   const int window = 2 * box.radius + 1;
-  // Long windows are cut into about as many chunks as a chunk has pixels.
-  const int chunk = std::min(window, std::max(64, static_cast<int>(std::ceil(std::sqrt(window)))));
+  // Few sizes, so that one compilation serves many a sigma. The longest window, of sigma 10000 in one pass, has 34641 pixels.
+  const int chunk = window == 1 ? 1 : window <= 16 ? 16 : window <= 64 * 64 ? 64 : 256;
+  const int chunks = (window + chunk - 1) / chunk, most_chunks = chunks == 1 ? 1 : chunk;
   const Slot nothing = planner.scratch(Format::f32x1, 1);
 
   // All passes along one axis. What lies between them alternates between two regions; `ones`: of one line of ones.
@@ -93,10 +94,11 @@ void plan_box(const GaussianBlurParams& p, const Profile& profile, Planner& plan
                     {"dst_count", length},
                     {"shift", last_margin - here},
                     {"src_stride", last.stride},
-                    {"dst_stride", next.stride}},
-                   {{"RADIUS", box.radius},
-                    {"CHUNK", chunk},
-                    {"CHUNKS", (window + chunk - 1) / chunk},
+                    {"dst_stride", next.stride},
+                    {"radius", box.radius},
+                    {"chunks", chunks}},
+                   {{"CHUNK", chunk},
+                    {"CHUNKS", most_chunks},
                     {"AXIS", axis},
                     {"BORDER", static_cast<int>(p.border)},
                     {"ONES", ones && pass == 1},

@@ -277,7 +277,7 @@ void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner
                     {"stored", l.stored},
                     {"period", l.period},
                     {"warm", l.warm}},
-                   {{"ORDER", p.order},
+                   {{"ORDER", l.filter.zeros ? 5 : p.order},  // zeros that an order leaves out are 0
                     {"ZEROS", l.filter.zeros},
                     {"AXIS", axis},
                     {"BACKWARD", backward},

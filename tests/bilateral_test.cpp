@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -248,6 +249,35 @@ TEST(BilateralSmall, EveryVariantKeepsWithinItsBuffers) {
         EXPECT_NEAR(decode_at(format, got.at(0), 0), 0.5, 1.0 / 255) << device;
       }
     }
+}
+
+// The form of whole texels, on devices that do not choose it too, and the pass that marks guides.
+TEST(BilateralSmall, PackedAndMarkedKeepWithinTheirBuffers) {
+  for (const std::string terms : {"c", "g", "gd"}) {
+    BilateralParams p = cases::bilateral_params(19, 7, terms, Format::f32x4);
+    p.radius = 1;  // more is unrolled, and takes PoCL long to compile
+    p.sigma_space = 1;
+    p.dst_stride = 23;
+    const cases::BilateralImages images = cases::bilateral_images(p, 31);
+    const auto floats = [](const cases::Values& v) { return std::vector<float>(v.begin(), v.end()); };
+    for (const std::string& device : test_devices()) {
+      Context& context = test_context(device);
+      if (context.info().api == Api::cpu) continue;  // plans of another profile are refused
+      NamedBytes inputs{{"src", encode(p.format, floats(images.src))}};
+      if (terms != "c") inputs.emplace_back("guide", encode(p.guide_format, floats(images.guide)));
+      if (terms == "gd") inputs.emplace_back("depth", encode(Format::f32x1, floats(images.depth)));
+      const Plan plan = luxel::plan(p, profile("lavapipe")).value();
+      const auto has = [&](std::string_view label) {
+        return std::any_of(plan.passes.begin(), plan.passes.end(), [&](const Pass& pass) { return pass.label == label; });
+      };
+      EXPECT_EQ(has("bilateral pack"), terms != "gd");
+      EXPECT_EQ(has("bilateral mark"), terms == "gd");
+      const std::vector<Bytes> got = run_bytes(context, plan, inputs, {"dst"});
+      const cases::Values expected = truth::bilateral(p, images).src;
+      for (int i = 0; i < 19 * 7; ++i)
+        EXPECT_NEAR(decode_at(p.format, got.at(0), 4 * (i / 19 * 23 + i % 19)), expected[4 * i], 1e-5) << device << " " << i;
+    }
+  }
 }
 
 struct OpenCvOutput {

@@ -126,7 +126,7 @@ TEST_P(HizSsrScene, FindsWhatTheScreenKnows) {
 struct Lobes {
   std::string scene;
   bool mirror = false;
-  int width = 192, height = 108;
+  int width = 128, height = 72;
   double known = 0.25;  // of the error without reflections, at most, where the screen knows; measured, rounded up
 };
 class HizSsrTruthFull : public testing::TestWithParam<Lobes> {};
@@ -134,7 +134,7 @@ class HizSsrTruthFull : public testing::TestWithParam<Lobes> {};
 TEST_P(HizSsrTruthFull, IsNearestToPathTracingWhereTheScreenKnows) {
   const auto& [name, mirror, width, height, known] = GetParam();
   const Stage& a = Stage::get(name, width, height);
-  const auto made = truth::screen_truth(a.scene, *a.rays, width, height, mirror, mirror ? 16 : 64);
+  const auto made = truth::screen_truth(a.scene, *a.rays, width, height, mirror, mirror ? 16 : 32);
   ASSERT_TRUE(made) << made.status().message();
   const truth::ScreenTruth& t = made.value();
   HizSsrParams p = t.params;
@@ -172,7 +172,7 @@ TEST_P(HizSsrTruthFull, IsNearestToPathTracingWhereTheScreenKnows) {
 
 INSTANTIATE_TEST_SUITE_P(MirrorAndGlossy, HizSsrTruthFull,
                          testing::Values(Lobes{"atrium", true}, Lobes{"atrium", false}, Lobes{"Sponza", true, 192, 108, 0.4},
-                                         Lobes{"Sponza", false, 128, 72, 0.65}),
+                                         Lobes{"Sponza", false, 96, 54, 0.65}),
                          [](const auto& info) { return info.param.scene + (info.param.mirror ? "Mirror" : "Glossy"); });
 
 }  // namespace

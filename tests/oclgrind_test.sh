@@ -23,6 +23,7 @@ check() {
 }
 check probe_test '*'
 check gaussian_blur_test 'GaussianBlurSmall*'
+check bilateral_test 'BilateralSmall.Packed*'
 check mip_build_test 'MipBuild/Formula*:MipBuild.ThreeLevels*'
 check voxelize_test 'VoxelizeSmall*'
 check voxelize_device_test 'VoxelizeDevice.Textures*:VoxelizeDevice.AFloor*'

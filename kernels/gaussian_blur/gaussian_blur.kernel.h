@@ -1,7 +1,10 @@
 // One pass of a separable Gaussian blur (Akenine-Moeller et al., Real-Time Rendering 4e, 12.1, eq. 12.1):
-//   dst(p) = w(0) src(p) + sum over t = 1..RADIUS of w(t) (src(p - t) + src(p + t))
+//   dst(p) = w(0) src(p) + sum over t = 1..radius of w(t) (src(p - t) + src(p + t))
 // along one axis, with weights that the host normalised. An invocation computes BLOCK results, each one step further along
 // the axis from (x, y). `inside` says that no tap of theirs leaves the image.
+
+// Taps on each side. A constant only where they are unrolled, so that elsewhere one compilation serves every radius.
+FN int taps(CTX) { return UNROLLED != 0 ? RADIUS : params.radius; }
 
 // The pixels at distance d along the axis from those of the wide at (x, y).
 FN wide tap(CTX, int x, int y, int d, bool inside) {
@@ -41,7 +44,7 @@ FN wide blur(CTX, int x, int y, int d, bool inside) {
     wide centre = tap(ctx, x, y, d, inside);
     wide sum = first(ctx, centre);
     wide weight = wide_splat(table(weights, 0));
-    for (int t = 1; t <= RADIUS; ++t) {
+    for (int t = 1; t <= taps(ctx); ++t) {
         wide low = tap(ctx, x, y, d - t, inside);
         wide high = tap(ctx, x, y, d + t, inside);
         if (renormalise) {
@@ -87,8 +90,8 @@ KERNEL(gaussian_blur) {
     const int x = invocation_x() * across;
     const int y = invocation_y() * down;
     if (x >= params.width || y >= params.height) return;
-    const int reach_x = AXIS == 0 ? RADIUS : 0;
-    const int reach_y = AXIS == 0 ? 0 : RADIUS;
+    const int reach_x = AXIS == 0 ? taps(ctx) : 0;
+    const int reach_y = AXIS == 0 ? 0 : taps(ctx);
     const bool inside = x >= reach_x && x + across + reach_x <= params.width &&
                         y >= reach_y && y + down + reach_y <= params.height;
     // Each form stands alone, so that no test for the border is left in the loop over taps.

@@ -7,9 +7,10 @@
     _(int, width)      /* pixels */ \
     _(int, height)     /* pixels */ \
     _(int, src_stride) /* pixels from row to row */ \
-    _(int, dst_stride)
+    _(int, dst_stride) \
+    _(int, radius)     /* taps on each side */
 #define CONSTANTS(_) \
-    _(0, int, RADIUS, 1)     /* taps on each side */ \
+    _(0, int, RADIUS, 1)     /* the same where the loop is unrolled */ \
     _(1, int, AXIS, 0)       /* 0: along rows, 1: along columns */ \
     _(2, int, BORDER, 0)     /* math/border.h */ \
     _(3, int, DIFFERENCE, 0) /* 1: x + sum w (x_t - x) */ \

@@ -1,4 +1,4 @@
-// One pass of a box of fractional width along one axis: the mean of 2 RADIUS + 1 pixels and of a part of the next one on
+// One pass of a box of fractional width along one axis: the mean of 2 radius + 1 pixels and of a part of the next one on
 // each side. Repeated, it tends to a Gaussian (Akenine-Moeller et al., Real-Time Rendering 4e, 12.1); the fractional width
 // gives it the variance that is asked for (Gwosdek et al., Theoretical Foundations of Gaussian Convolution by Extended Box
 // Filtering, 2011).
@@ -34,11 +34,11 @@ FN void put(CTX, int line, int i, wide w, bool inside) {
 }
 
 FN void blur(CTX, int line, int first, bool inside) {
-    const int window = 2 * RADIUS + 1;
-    const int start = first + params.shift - RADIUS;  // of the first result's window
+    const int window = 2 * params.radius + 1;
+    const int start = first + params.shift - params.radius;  // of the first result's window
     ARRAY(wide, behind, CHUNKS)
     wide sum = wide_splat(0.0f);
-    for (int c = CHUNKS - 1; c >= 0; --c) {
+    for (int c = params.chunks - 1; c >= 0; --c) {
         behind[c] = sum;
         if (c > 0)
             for (int i = min((c + 1) * CHUNK, window) - 1; i >= c * CHUNK; --i) sum = sum + at(ctx, line, start + i, inside);
@@ -46,7 +46,7 @@ FN void blur(CTX, int line, int first, bool inside) {
     ARRAY(wide, tail, CHUNK)
     wide head = wide_splat(0.0f);
     wide before = at(ctx, line, start - 1, inside);
-    for (int c = 0; c < CHUNKS && first + c * CHUNK < params.dst_count; ++c) {
+    for (int c = 0; c < params.chunks && first + c * CHUNK < params.dst_count; ++c) {
         sum = behind[c];
         for (int i = min((c + 1) * CHUNK, window) - 1; i >= c * CHUNK; --i) {
             sum = sum + at(ctx, line, start + i, inside);
@@ -55,7 +55,7 @@ FN void blur(CTX, int line, int first, bool inside) {
         for (int i = c * CHUNK; i < min(min((c + 1) * CHUNK, window), params.dst_count - first); ++i) {
             const wide after = at(ctx, line, start + i + window, inside);
             wide mean = table(weights, 0) * (tail[i - c * CHUNK] + head) + table(weights, 1) * (before + after);
-            if (KEEP_ALPHA != 0) mean = with_alpha_of(mean, at(ctx, line, start + i + RADIUS, inside));
+            if (KEEP_ALPHA != 0) mean = with_alpha_of(mean, at(ctx, line, start + i + params.radius, inside));
             put(ctx, line, first + i, mean, inside);
             head = head + after;
             before = at(ctx, line, start + i, inside);
@@ -65,11 +65,12 @@ FN void blur(CTX, int line, int first, bool inside) {
 
 KERNEL(gaussian_blur_box) {
     const int line = invocation_x() * PIXELS;
-    const int first = invocation_y() * (2 * RADIUS + 1);
+    const int window = 2 * params.radius + 1;
+    const int first = invocation_y() * window;
     if (line >= params.lines || first >= params.dst_count) return;
-    const int start = first + params.shift - RADIUS;
+    const int start = first + params.shift - params.radius;
     // Each form stands alone, so that no test for the border is left in the loops.
-    if (start > 0 && start + 2 * (2 * RADIUS + 1) <= params.src_count && line + PIXELS <= params.lines)
+    if (start > 0 && start + 2 * window <= params.src_count && line + PIXELS <= params.lines)
         blur(ctx, line, first, true);
     else
         blur(ctx, line, first, false);

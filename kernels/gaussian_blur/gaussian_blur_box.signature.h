@@ -9,11 +9,12 @@
     _(int, dst_count)  /* and of dst */ \
     _(int, shift)      /* position in src of dst's first */ \
     _(int, src_stride) /* pixels from row to row */ \
-    _(int, dst_stride)
+    _(int, dst_stride) \
+    _(int, radius)     /* the window has 2 radius + 1 pixels */ \
+    _(int, chunks)     /* of CHUNK pixels, which together are at least the window: 1..CHUNKS */
 #define CONSTANTS(_) \
-    _(0, int, RADIUS, 1)     /* the window has 2 RADIUS + 1 pixels */ \
-    _(1, int, CHUNK, 3)      /* pixels of the window whose sums are kept at a time */ \
-    _(2, int, CHUNKS, 1)     /* how many there are: CHUNK * CHUNKS is at least the window */ \
+    _(1, int, CHUNK, 64)     /* pixels of the window whose sums are kept at a time */ \
+    _(2, int, CHUNKS, 1)     /* most chunks */ \
     _(3, int, AXIS, 0)       /* 0: along rows, 1: along columns */ \
     _(4, int, BORDER, 0)     /* math/border.h; what pixels outside src are */ \
     _(5, int, COVERED, 0)    /* 1: results are divided by coverage */ \

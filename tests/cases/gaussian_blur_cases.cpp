@@ -2,7 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <mutex>
 
+#include "bench/truth/gaussian_truth.h"
 #include "tests/cases/gaussian_blur_support.h"
 #include "tests/cases/run.h"
 
@@ -60,6 +63,25 @@ double limit_of(const Values& src, int width, int height, Border border) {
       total += w;
     }
   return sum / total;
+}
+
+Values as_four(const Values& src) {
+  Values four;
+  for (const double v : src) four.insert(four.end(), 4, v);
+  return four;
+}
+
+const Values& impulse_truth(int n, double sigma) {
+  static std::mutex mutex;
+  static std::map<std::pair<int, double>, Values> known;
+  const std::lock_guard lock(mutex);
+  Values& truth = known[{n, sigma}];
+  if (truth.empty()) {
+    Values impulse(n, 0.0);
+    impulse[n / 2] = 1;
+    truth = truth::gaussian(impulse, n, 1, 1, sigma, Border::clamp);
+  }
+  return truth;
 }
 
 std::vector<Case> gaussian_blur_cases() {

@@ -36,6 +36,14 @@ double rounding_bound(int radius);
 /// counted half, with clamp the mean of the corners.
 double limit_of(const Values& src, int width, int height, Border border);
 
+/// One channel as four alike: for images whose channels do not matter, so that they run in the form that most cases run in,
+/// which a driver has compiled already.
+Values as_four(const Values& src);
+
+/// What exact arithmetic makes of an impulse in the middle of a row of n pixels, worked out once a process: at sigma 500 it
+/// takes longer than all the blurs that are compared with it.
+const Values& impulse_truth(int n, double sigma);
+
 /// Cases in these files, in the order of gaussian_blur_cases().
 void add_sigma_cases(std::vector<Case>& cases);
 void add_value_cases(std::vector<Case>& cases);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -221,14 +222,15 @@ std::vector<Scene> scenes() {
   return all;
 }
 
-Case agreement_case(const Scene& s, SsrVariant variant) {
-  return {"", fmt::format("{}, {}", s.name, name(variant)), s.promise + " (answers that do not)", 0,
+// Cases are copied for every device, scenes are not.
+Case agreement_case(std::shared_ptr<const Scene> s, SsrVariant variant) {
+  return {"", fmt::format("{}, {}", s->name, name(variant)), s->promise + " (answers that do not)", 0,
           [s, variant](Context& context) -> Result<double> {
-            HizSsrParams p = s.params;
+            HizSsrParams p = s->params;
             p.variant = variant;
-            const auto r = follow(context, p, s.stored, s.source);
+            const auto r = follow(context, p, s->stored, s->source);
             if (!r) return r.status();
-            const Agreement a = compare(p, s.stored, s.source, r.value());
+            const Agreement a = compare(p, s->stored, s->source, r.value());
             return a.wrong + a.broken;
           }};
 }
@@ -237,13 +239,20 @@ Case agreement_case(const Scene& s, SsrVariant variant) {
 Case same_case(std::string sizes, std::vector<int> widths, std::vector<int> heights, bool slow) {
   return {"", "hiz is dda, " + sizes, "the pyramid skips no pixel that dda hits: the same bits (values that differ)", 0,
           [=](Context& context) -> Result<double> {
+            // Every size is another part of one field: to make as many fields took longer than to follow rays over them.
+            constexpr int side = 257 + 32;
+            static const Values field = height_field(side, side, 263);
             double different = 0;
             for (const int w : widths)
               for (const int h : heights) {
                 HizSsrParams p = ssr_params(w, h);
                 p.thickness = (w + h) % 3 == 0 ? 0.3 : 1e30;
                 p.rays = 64;
-                const Values stored = height_field(w, h, static_cast<std::uint32_t>(w * 263 + h));
+                Values stored;
+                for (int y = 0; y < h; ++y) {
+                  const auto row = field.begin() + (y + (5 * w + h) % 32) * side + (w + 7 * h) % 32;
+                  stored.insert(stored.end(), row, row + w);
+                }
                 const Values rays = screen_rays(p, p.rays, static_cast<std::uint32_t>(w + 1000 * h));
                 const auto a = follow(context, p, stored, rays);
                 if (!a) return a.status();
@@ -268,8 +277,11 @@ std::vector<int> all_sizes() {
 }  // namespace
 
 void add_ssr_walk_cases(std::vector<Case>& cases) {
-  for (const Scene& s : scenes())
+  std::vector<Scene> all = scenes();
+  for (Scene& scene : all) {
+    const auto s = std::make_shared<const Scene>(std::move(scene));
     for (const SsrVariant v : {SsrVariant::hiz, SsrVariant::dda}) cases.push_back(agreement_case(s, v));
+  }
   cases.push_back(same_case("12 sizes", {1, 31, 64, 257}, {1, 48, 129}, false));
   cases.push_back(same_case("every width from 1 to 257 with heights 1, 32, 257", all_sizes(), {1, 32, 257}, true));
   cases.push_back(same_case("every width and height from 1 to 257", all_sizes(), all_sizes(), true));
