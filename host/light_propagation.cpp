@@ -172,7 +172,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   for (int step = 0; step < p.iterations; ++step) {
     const std::size_t from = static_cast<std::size_t>(step % 2), to = 1 - from;
     const bool blocks = p.geometry && (step > 0 || p.continued);
-    const bool apart = (lanes > 1 || pixels) && !blocks && !p.active;
+    const bool apart = !p.active && (pixels ? p.bands == 3 : lanes > 1 && !blocks);
     const bool last = step + 1 == p.iterations;
     std::vector<std::pair<std::string_view, Slot>> slots = {
         {"src", light[from]}, {"dst", light[to]}, {"sum", sum[from]}, {"total", sum[to]}};
@@ -187,12 +187,14 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                                         {"last", !last ? 0 : p.travelling ? 2 : 1},
                                         {"step", step},
                                         {"error", p.error}};
-    const Planner::Values constants = {{"LOBES", static_cast<int>(p.lobes)}, {"PERIODIC", p.border == LpvBorder::periodic}, {"APART", apart}};
+    const Planner::Values constants = {
+        {"LOBES", static_cast<int>(p.lobes)}, {"PERIODIC", p.border == LpvBorder::periodic}, {"APART", apart}};
     const auto grid = cells(runs, e[1], apart ? e[2] * p.channels : e[2]);
     const std::string label = "light_propagation step " + std::to_string(step + 1);
     if (pixels)
       planner.pass("lpv_propagate_cells", profile.texels ? "texels" : "buffers", label, grid, workgroup, extent + parameters,
-                   constants + Planner::Values{{"BANDS", p.bands}, {"BLOCKED", blocks}, {"ACTIVE", p.active}, {"ENERGY", p.energy}}, slots);
+                   constants + Planner::Values{{"BANDS", p.bands}, {"BLOCKED", blocks}, {"ACTIVE", p.active}, {"ENERGY", p.energy}},
+                   slots);
     else
       planner.pass("lpv_propagate", bands + (blocks ? "_geometry" : "") + (p.active ? "_active" : ""), label, grid, workgroup,
                    extent + s.values() + Planner::Values{{"geometry_pitch", g.pitch}, {"geometry_slice", g.slice}, {"geometry_plane", g.plane}} +
