@@ -71,6 +71,8 @@ Status validate(const LpvPropagateParams& p) {
     return out_of_range("LpvPropagateParams.error", p.error, "0 without active, whose steps find out what travels");
   if (p.active && p.travelling)
     return out_of_range("LpvPropagateParams.travelling", "true", "false with active, whose last step is not known before");
+  if (p.active && p.energy)
+    return out_of_range("LpvPropagateParams.energy", "true", "false with active, which leaves out cells");
   if (too_large(p))
     return out_of_range(extents[2], p.grid.extent[2], "a grid whose coefficients, in f32 and with 16 cells more along each axis, "
                         "take at most 2147483647 bytes");
@@ -106,12 +108,25 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
     out.name = "travelling";
     travelling = planner.resource(out);
   }
+  Slot energy;
+  if (p.energy) {
+    Resource r{"energy"};
+    r.format = Format::f32x4;
+    r.bytes = lpv_pixels(p.grid, 2, p.channels) * bytes_per_pixel(r.format);
+    r.written = true;
+    energy = planner.resource(r);
+  }
+  // Two forms of a step, with the same bits: planes of coefficients, and pixels of cells, which can account for energy.
+  const bool pixels = profile.texels || p.energy;
   const Strides s(e[0], e[1], e[2]), g(e[0] + 1 + lane_limit, e[1] + 1, e[2] + 1);
-  const std::size_t values = plane_values(p, s);
-  const std::array<Slot, 2> light{planner.scratch(Format::f32x1, values), planner.scratch(Format::f32x1, values)};
-  const std::array<Slot, 2> sum{planner.scratch(Format::f32x1, values), planner.scratch(Format::f32x1, values)};
+  const auto lights = [&] {
+    return pixels ? planner.scratch(Format::f32x4, 1 + lpv_pixels(p.grid, p.bands, p.channels))
+                  : planner.scratch(Format::f32x1, plane_values(p, s));
+  };
+  const std::array<Slot, 2> light{lights(), lights()};
+  const std::array<Slot, 2> sum{lights(), lights()};
 
-  const int lanes = profile.rows.lanes > 0 ? lane_limit : 1;
+  const int lanes = profile.rows.lanes > 0 && !pixels ? lane_limit : 1;
   const int runs = (e[0] + lanes - 1) / lanes;
   const std::array<std::uint32_t, 3> workgroup =
       lanes > 1 ? std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(std::min(4, s.pitch / lanes)), 8, 1}
@@ -127,53 +142,64 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   const double stored = static_cast<double>(quads) * static_cast<double>(bytes_per_pixel(p.format));
   const Planner::Values extent = {{"width", e[0]}, {"height", e[1]}, {"depth", e[2]}};
   planner.pass("lpv_start", std::string(name(p.format)) + "_" + bands, "light_propagation start",
-               cells(s.pitch, e[1], e[2] * p.channels), profile.voxels.workgroup,
+               cells(pixels ? e[0] : s.pitch, e[1], e[2] * p.channels), profile.voxels.workgroup,
                extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}, {"states", states}},
-               {{"LOBES", static_cast<int>(p.lobes)}, {"ACTIVE", p.active}},
+               {{"LOBES", static_cast<int>(p.lobes)}, {"ACTIVE", p.active}, {"CELLS", pixels}},
                {{"injected", injected}, {"travelling", light[0]}, {"other", light[1]}, {"sum", sum[0]}, {"total", sum[1]}, {"state", state}});
   planner.cost(0, n * (stored + (p.active ? 4.0 : 2.0) * 4 * coefficients(p)));
   if (p.active) {
+    const int stored = pixels ? 4 * quads : coefficients(p);
     planner.pass("lpv_reach", "plain", "light_propagation reach", cells(runs, e[1], e[2]), workgroup,
-                 extent + s.values() + Planner::Values{{"planes", p.channels * coefficients(p)}, {"coefficients", coefficients(p)}},
-                 {{"LANES", lanes}}, {{"travelling", light[0]}, {"reached", reached[0]}, {"state", state}});
+                 extent + s.values() + Planner::Values{{"planes", p.channels * stored}, {"coefficients", stored}},
+                 {{"LANES", lanes}, {"CELLS", pixels}}, {{"travelling", light[0]}, {"reached", reached[0]}, {"state", state}});
     planner.cost(0, n * 4 * coefficients(p));
   }
 
-  if (blocked) {
-    blocking = planner.scratch(Format::f32x1, 4 * static_cast<std::size_t>(g.plane));
-    planner.pass("lpv_blocking", name(p.geometry_format), "light_propagation blocking", cells(g.pitch, e[1] + 1, e[2] + 1),
-                 profile.voxels.workgroup,
-                 Planner::Values{{"width", e[0] + 1}, {"height", e[1] + 1}, {"depth", e[2] + 1}} + g.values(), {},
+  if (blocked && pixels && p.geometry_format == Format::f32x4) {
+    blocking = geometry;
+  } else if (blocked) {
+    blocking = pixels ? planner.scratch(Format::f32x4, lpv_geometry_pixels(p.grid))
+                      : planner.scratch(Format::f32x1, 4 * static_cast<std::size_t>(g.plane));
+    planner.pass("lpv_blocking", name(p.geometry_format), "light_propagation blocking",
+                 cells(pixels ? e[0] + 1 : g.pitch, e[1] + 1, e[2] + 1), profile.voxels.workgroup,
+                 Planner::Values{{"width", e[0] + 1}, {"height", e[1] + 1}, {"depth", e[2] + 1}} + g.values(), {{"CELLS", pixels}},
                  {{"geometry", geometry}, {"planes", blocking}});
     planner.cost(0, static_cast<double>(lpv_geometry_pixels(p.grid)) *
                         (16.0 + static_cast<double>(bytes_per_pixel(p.geometry_format))));
   }
 
+  const Slot unused = planner.scratch(Format::f32x4, 1);
   for (int step = 0; step < p.iterations; ++step) {
     const std::size_t from = static_cast<std::size_t>(step % 2), to = 1 - from;
     const bool blocks = p.geometry && (step > 0 || p.continued);
-    const bool apart = lanes > 1 && !blocks && !p.active;
+    const bool apart = !p.active && (pixels ? p.bands == 3 : lanes > 1 && !blocks);
     const bool last = step + 1 == p.iterations;
     std::vector<std::pair<std::string_view, Slot>> slots = {
         {"src", light[from]}, {"dst", light[to]}, {"sum", sum[from]}, {"total", sum[to]}};
-    if (blocks) slots.push_back({"geometry", blocking});
-    if (p.active) slots.insert(slots.end(), {{"reached", reached[from]}, {"reaches", reached[to]}, {"state", state}});
-    planner.pass("lpv_propagate", bands + (blocks ? "_geometry" : "") + (p.active ? "_active" : ""), "light_propagation step " + std::to_string(step + 1),
-                 cells(runs, e[1], apart ? e[2] * p.channels : e[2]), workgroup,
-                 extent + s.values() +
-                     Planner::Values{{"geometry_pitch", g.pitch},
-                                     {"geometry_slice", g.slice},
-                                     {"geometry_plane", g.plane},
-                                     {"channels", p.channels},
-                                     {"across", step == 0 && p.bands == 3},
-                                     {"last", !last ? 0 : p.travelling ? 2 : 1},
-                                     {"step", step},
-                                     {"error", p.error}},
-                 {{"LOBES", static_cast<int>(p.lobes)},
-                  {"PERIODIC", p.border == LpvBorder::periodic},
-                  {"APART", apart},
-                  {"LANES", lanes}},
-                 slots);
+    if (blocks || pixels) slots.push_back({"geometry", blocks ? blocking : light[from]});
+    if (p.active)
+      slots.insert(slots.end(), {{"reached", reached[from]}, {"reaches", reached[to]}, {"state", state}});
+    else if (pixels)
+      slots.insert(slots.end(), {{"reached", unused}, {"reaches", unused}, {"state", unused}});
+    if (pixels) slots.push_back({"energy", p.energy ? energy : unused});
+    const Planner::Values parameters = {{"channels", p.channels},
+                                        {"across", step == 0 && p.bands == 3},
+                                        {"last", !last ? 0 : p.travelling ? 2 : 1},
+                                        {"step", step},
+                                        {"error", p.error}};
+    const Planner::Values constants = {
+        {"LOBES", static_cast<int>(p.lobes)}, {"PERIODIC", p.border == LpvBorder::periodic}, {"APART", apart}};
+    const auto grid = cells(runs, e[1], apart ? e[2] * p.channels : e[2]);
+    const std::string label = "light_propagation step " + std::to_string(step + 1);
+    if (pixels)
+      planner.pass("lpv_propagate_cells", profile.texels ? "texels" : "buffers", label, grid, workgroup, extent + parameters,
+                   constants + Planner::Values{{"BANDS", p.bands}, {"BLOCKED", blocks}, {"ACTIVE", p.active}, {"ENERGY", p.energy}},
+                   slots);
+    else
+      planner.pass("lpv_propagate", bands + (blocks ? "_geometry" : "") + (p.active ? "_active" : ""), label, grid, workgroup,
+                   extent + s.values() + Planner::Values{{"geometry_pitch", g.pitch}, {"geometry_slice", g.slice}, {"geometry_plane", g.plane}} +
+                       parameters,
+                   constants + Planner::Values{{"LANES", lanes}}, slots);
     const double read = step == 0 ? coefficients(p) : carried(p);
     const double faces = p.bands == 3 ? 31 : 17;
     const double lobes = p.lobes == LpvLobes::clamp ? 30 : p.lobes == LpvLobes::shrink ? 14 : p.lobes == LpvLobes::rescale ? 150 : 0;
@@ -185,7 +211,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   const auto finish = [&](Slot from, Slot odd, Slot to, bool keep) {
     planner.pass("lpv_finish", name(p.format), "light_propagation finish", cells(e[0], e[1], e[2] * p.channels * quads),
                  profile.voxels.workgroup, extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", keep}},
-                 {{"QUADS", quads}, {"ACTIVE", p.active}},
+                 {{"QUADS", quads}, {"ACTIVE", p.active}, {"CELLS", pixels}},
                  {{"injected", injected}, {"sum", from}, {"result", to}, {"odd", odd}, {"state", state}});
     planner.cost(0, n * (4.0 * carried(p) + stored));
   };

@@ -88,7 +88,8 @@ Result<Plan> plan(const ProbeTraceParams& p, const Profile& profile) {
                 {"thickness", p.thickness},
                 {"slope", p.slope},
                 {"bias", p.bias}},
-               {{"ORDER", static_cast<int>(p.order)}, {"BITS", p.maps.normal == ProbeNormal::snorm16 ? 16 : 8}}, slots);
+               {{"ORDER", static_cast<int>(p.order)}, {"BITS", p.maps.normal == ProbeNormal::snorm16 ? 16 : 8},
+                {"SPLIT", profile.rows.lanes == 0}}, slots);
   planner.cost(0, static_cast<double>(rays * 52 + (probe_distance_elements(p.maps, probes) +
                                                    probe_minimum_elements(p.maps, probes)) * 4));
   return std::move(planner).finish();

@@ -227,6 +227,8 @@ TEST(LightPropagation, RefusesWithFieldValueAndRange) {
        "LpvPropagateParams.error is 0.1; expected 0 without active, whose steps find out what travels"},
       {[](auto& p) { p.active = p.travelling = true; },
        "LpvPropagateParams.travelling is true; expected false with active, whose last step is not known before"},
+      {[](auto& p) { p.active = p.energy = true; },
+       "LpvPropagateParams.energy is true; expected false with active, which leaves out cells"},
       {[](auto& p) { p.geometry = true, p.geometry_format = Format::unorm8x4; },
        "LpvPropagateParams.geometry_format is unorm8x4; expected f32x4 or f16x4"},
   };

@@ -222,5 +222,59 @@ TEST(ProbeTrace, DevicesAgreeToTheBit) {
       }
 }
 
+template <class Params>
+void refused(const Params& p, const char* expected) {
+  EXPECT_EQ(validate(p).code(), Code::invalid_argument) << expected;
+  EXPECT_EQ(validate(p).message(), expected);
+  for (const std::string& device : test_devices()) EXPECT_EQ(plan(p, test_context(device).profile()).status().message(), expected) << device;
+}
+
+TEST(ProbeTrace, RefusesWhatCannotBe) {
+  const auto with = [](auto change) {
+    ProbeTraceParams p;
+    p.grid.count = {2, 3, 4};
+    p.rays = 1;
+    change(p);
+    return p;
+  };
+  const double nan = std::nan("");
+  EXPECT_TRUE(validate(with([](auto&) {})).ok());
+  EXPECT_TRUE(validate(with([](auto& p) { p.probe = 23, p.tries = 24, p.bias = 64, p.slope = 0, p.thickness = 0.125; })).ok());
+  refused(with([](auto& p) { p.grid.count[1] = 0; }), "ProbeGrid.count is 0; expected 1..1024");
+  refused(with([](auto& p) { p.grid.count = {1024, 65, 1}; }), "ProbeGrid.count is 66560; expected at most 65536 probes in all");
+  refused(with([](auto& p) { p.grid.origin[2] = 1e16; }), "ProbeGrid.origin is 1e+16; expected -1e+15..1e+15");
+  refused(with([](auto& p) { p.grid.spacing[0] = 0; }), "ProbeGrid.spacing is 0; expected 1e-15..1e+15");
+  refused(with([=](auto& p) { p.grid.spacing[0] = nan; }), "ProbeGrid.spacing is nan; expected 1e-15..1e+15");
+  refused(with([](auto& p) { p.maps.size = 14; }), "ProbeMaps.size is 14; expected 16..2048");
+  refused(with([](auto& p) { p.maps.ratio = 0; }), "ProbeMaps.ratio is 0; expected 1..256");
+  refused(with([](auto& p) { p.maps.distance = static_cast<ProbeDistance>(2); }), "ProbeMaps.distance is 2; expected 0..1");
+  refused(with([](auto& p) { p.maps.normal = static_cast<ProbeNormal>(-1); }), "ProbeMaps.normal is -1; expected 0..2");
+  refused(with([](auto& p) { p.rays = 0; }), "ProbeTraceParams.rays is 0; expected 1..67108864");
+  refused(with([](auto& p) { p.probe = 24; }), "ProbeTraceParams.probe is 24; expected -1..23");
+  refused(with([](auto& p) { p.probe = -2; }), "ProbeTraceParams.probe is -2; expected -1..23");
+  refused(with([](auto& p) { p.tries = 25; }), "ProbeTraceParams.tries is 25; expected 1..24");
+  refused(with([](auto& p) { p.order = static_cast<ProbeOrder>(2); }), "ProbeTraceParams.order is 2; expected 0..1");
+  refused(with([](auto& p) { p.max_steps = -1; }), "ProbeTraceParams.max_steps is -1; expected 0..16777216");
+  refused(with([](auto& p) { p.thickness = 0.1; }), "ProbeTraceParams.thickness is 0.1; expected 0.125..64");
+  refused(with([](auto& p) { p.slope = 65; }), "ProbeTraceParams.slope is 65; expected 0..64");
+  refused(with([=](auto& p) { p.bias = nan; }), "ProbeTraceParams.bias is nan; expected 0..64");
+}
+
+TEST(ProbeFetch, RefusesWhatCannotBe) {
+  const auto with = [](auto change) {
+    ProbeFetchParams p;
+    p.rays = 1;
+    change(p);
+    return p;
+  };
+  EXPECT_TRUE(validate(with([](auto&) {})).ok());
+  refused(with([](auto& p) { p.probes = 0; }), "ProbeFetchParams.probes is 0; expected 1..65536");
+  refused(with([](auto& p) { p.probes = 65536; }), "ProbeMaps.size is 256; expected size x size x probes of at most 2147483647");
+  refused(with([](auto& p) { p.maps.radiance = static_cast<ProbeRadiance>(3); }), "ProbeMaps.radiance is 3; expected 0..2");
+  refused(with([](auto& p) { p.rays = (1 << 26) + 1; }), "ProbeFetchParams.rays is 67108865; expected 1..67108864");
+  refused(with([](auto& p) { p.environment[1] = -1; }), "ProbeFetchParams.environment is -1; expected 0..1e+30");
+  refused(with([](auto& p) { p.environment[2] = std::nan(""); }), "ProbeFetchParams.environment is nan; expected 0..1e+30");
+}
+
 }  // namespace
 }  // namespace luxel

@@ -65,10 +65,14 @@ struct LpvPropagateParams {
   double error = 0;                       // active: no further steps when the largest c0 that travels is at most this share
                                           // of the largest injected; 0..0.5, 0: all steps
   bool travelling = false;                // adds `travelling`: the light after the last step, to go on from
+  bool energy = false;                    // adds `energy`: where light went; not with active
 };
 
 /// Resources: `injected` (read), `geometry` (read; with geometry), `result` (written): the sum over steps of the light that
-/// travels; `travelling` (written; where asked for). Scratch: Plan::scratch_bytes; lpv_propagate needs nothing cleared.
+/// travels; `travelling` (written; where asked for); `energy` (written; where asked for): a vec4 a cell of each channel, in
+/// units of c0 (3.5449077 times it is flux): light that left the grid from this cell, that blocking took where it came into
+/// it, that leaving out negative fluxes added to it (clamp alone), over all steps; and what it holds at the end. Over all
+/// cells injected + added = left + taken + held. Scratch: Plan::scratch_bytes; lpv_propagate needs nothing cleared.
 /// A coefficient that is not finite spreads by one ring of cells a step and no further.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const LpvPropagateParams& params);

@@ -9,6 +9,8 @@
     _(int, pitch)    /* values from row to row, slice to slice, plane to plane */ \
     _(int, slice) \
     _(int, plane)
+#define CONSTANTS(_) \
+    _(0, int, CELLS, 0)  /* 1: pixels of four */
 #define BINDINGS(_) \
     _(READ, 0, PIXEL, geometry) \
     _(WRITE, 1, float, planes)

@@ -1,10 +1,13 @@
-// From a plane for each coefficient back to pixels of four. Light that came through faces has nothing in c4, c5, c7: there
+// From a plane for each coefficient (CELLS: from pixels in another order, lpv_propagate_cells.kernel.h) back to pixels of four. Light that came through faces has nothing in c4, c5, c7: there
 // the result holds what was injected.
 FN float summed(CTX, int to, int i, float across) {
     if (i > 8) return 0.0f;
     if (i == 4 || i == 5 || i == 7) return params.keep != 0 ? across : 0.0f;
-    if (ACTIVE != 0 && load(state, 0) % 2u == 1u) return load(odd, to + i * params.plane);
-    return load(sum, to + i * params.plane);
+    const int slot = i == 6 ? 4 : i == 8 ? 5 : i;
+    const int cells = params.width * params.height * params.depth;
+    const int at = CELLS != 0 ? to + slot / 4 * 4 * cells + slot % 4 : to + i * params.plane;
+    if (ACTIVE != 0 && load(state, 0) % 2u == 1u) return load(odd, at);
+    return load(sum, at);
 }
 
 KERNEL(lpv_finish) {
@@ -14,8 +17,10 @@ KERNEL(lpv_finish) {
     if (x >= params.width || y >= params.height || z >= params.channels * QUADS * params.depth) return;
     const int channel = z / (QUADS * params.depth);
     const int i = 4 * (z / params.depth % QUADS);
-    const int to = 3 * params.pitch + channel * (QUADS == 1 ? 4 : 9) * params.plane + z % params.depth * params.slice +
-                   y * params.pitch + x;
+    const int plane_to = 3 * params.pitch + channel * (QUADS == 1 ? 4 : 9) * params.plane + z % params.depth * params.slice +
+                         y * params.pitch + x;
+    const int volume = channel * QUADS * params.depth + z % params.depth;
+    const int to = CELLS != 0 ? 4 + 4 * ((volume * params.height + y) * params.width + x) : plane_to;
     const ivec3 extent = ivec3(params.width, params.height, params.depth);
     vec4 across = vec4(0.0f, 0.0f, 0.0f, 0.0f);
     if (i == 4 && params.keep != 0) across = load_voxel(injected, extent, ivec3(x, y, z));

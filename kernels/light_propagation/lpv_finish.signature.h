@@ -13,7 +13,8 @@
     _(int, keep)     /* 1: the sum holds the injected light */
 #define CONSTANTS(_) \
     _(0, int, QUADS, 1)  /* pixels of a cell: 1 for 2 bands, 3 for 3 */ \
-    _(1, int, ACTIVE, 0) /* 1: of the two sums the one of the last step that was made */
+    _(1, int, ACTIVE, 0) /* 1: of the two sums the one of the last step that was made */ \
+    _(2, int, CELLS, 0)  /* 1: from pixels of four, a cell each */
 #define BINDINGS(_) \
     _(READ, 0, PIXEL, injected) \
     _(READ, 1, float, sum) \

@@ -10,6 +10,8 @@
     _(int, plane) \
     _(int, planes)       /* of all channels */ \
     _(int, coefficients) /* planes of a channel */
+#define CONSTANTS(_) \
+    _(0, int, CELLS, 0)  /* 1: pixels of four, a cell each; coefficients then counts their values */
 #define SHAPE(_) \
     _(8, int, LANES, 16)
 #define BINDINGS(_) \

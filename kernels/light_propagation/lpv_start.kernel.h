@@ -1,6 +1,6 @@
 // From pixels of four coefficients to a plane for each, so that neighbouring cells are neighbours in memory; with what the
 // lobes' form asks for. Before the planes lie three rows: nothing, and for each cell of a row whether it has a neighbour to
-// the left and to the right.
+// the left and to the right. CELLS: pixels of four again, a cell each, in the order that lpv_propagate_cells.kernel.h describes.
 #if BANDS == 3
 #define COEFFICIENTS 9
 #define QUADS 3
@@ -9,22 +9,38 @@
 #define QUADS 1
 #endif
 
+// Where coefficient i of a channel lies.
+FN int place_of(CTX, int channel, int i, int x, int y, int z) {
+    if (CELLS == 0) return 3 * params.pitch + (channel * COEFFICIENTS + i) * params.plane + z * params.slice + y * params.pitch + x;
+    const int slot = i < 4 ? i : i == 6 ? 4 : i == 8 ? 5 : i == 4 ? 8 : i == 5 ? 9 : 10;
+    const int volume = (channel * QUADS + slot / 4) * params.depth + z;
+    return 4 + 4 * ((volume * params.height + y) * params.width + x) + slot % 4;
+}
+
 KERNEL(lpv_start) {
     const int x = invocation_x();
     const int y = invocation_y();
     const int z = invocation_z() % params.depth;
     const int channel = invocation_z() / params.depth;
-    if (x >= params.pitch || y >= params.height || channel >= params.channels) return;
+    const int columns = CELLS != 0 ? params.width : params.pitch;
+    if (x >= columns || y >= params.height || channel >= params.channels) return;
     if (y == 0 && z == 0 && channel == 0) {
         const float left = x > 0 ? 1.0f : 0.0f;
         const float right = x + 1 < params.width ? 1.0f : 0.0f;
-        store(travelling, x, 0.0f);
-        store(travelling, params.pitch + x, left);
-        store(travelling, 2 * params.pitch + x, right);
-        store(other, x, 0.0f);
-        store(other, params.pitch + x, left);
-        store(other, 2 * params.pitch + x, right);
-        for (int i = x; i < params.states; i += params.pitch) store(state, i, 0u);
+        if (CELLS == 0) {
+            store(travelling, x, 0.0f);
+            store(travelling, params.pitch + x, left);
+            store(travelling, 2 * params.pitch + x, right);
+            store(other, x, 0.0f);
+            store(other, params.pitch + x, left);
+            store(other, 2 * params.pitch + x, right);
+        } else if (x == 0) {
+            for (int i = 0; i < 4; ++i) {
+                store(travelling, i, 0.0f);
+                store(other, i, 0.0f);
+            }
+        }
+        for (int i = x; i < params.states; i += columns) store(state, i, 0u);
     }
 
     float c[12];
@@ -37,15 +53,14 @@ KERNEL(lpv_start) {
         c[4 * q + 2] = v.z;
         c[4 * q + 3] = v.w;
     }
-    const int plane = params.plane;
-    const int to = 3 * params.pitch + channel * COEFFICIENTS * plane + z * params.slice + y * params.pitch + x;
     // Where no light comes nothing is added to a sum: as if 0 was, which makes 0 of -0.
     UNROLL for (int i = 0; i < COEFFICIENTS; ++i) {
         const float begin = params.keep == 0 || c[i] == 0.0f ? 0.0f : c[i];
-        store(sum, to + i * plane, begin);
+        const int to = place_of(ctx, channel, i, x, y, z);
+        store(sum, to, begin);
         if (ACTIVE != 0) {
-            store(total, to + i * plane, begin);
-            store(other, to + i * plane, 0.0f);
+            store(total, to, begin);
+            store(other, to, 0.0f);
         }
     }
     if (LOBES == 2) {
@@ -65,5 +80,5 @@ KERNEL(lpv_start) {
 #endif
         UNROLL for (int i = 0; i < COEFFICIENTS; ++i) c[i] = scale * c[i];
     }
-    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) store(travelling, to + i * plane, c[i]);
+    UNROLL for (int i = 0; i < COEFFICIENTS; ++i) store(travelling, place_of(ctx, channel, i, x, y, z), c[i]);
 }

@@ -17,7 +17,8 @@
     _(int, states)   /* values of state, which are cleared */
 #define CONSTANTS(_) \
     _(0, int, LOBES, 0)  /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
-    _(1, int, ACTIVE, 0) /* 1: the other two buffers are filled too, since steps leave out cells */
+    _(1, int, ACTIVE, 0) /* 1: the other two buffers are filled too, since steps leave out cells */ \
+    _(2, int, CELLS, 0)  /* 1: pixels of four, a cell each */
 #define BINDINGS(_) \
     _(READ, 0, PIXEL, injected) \
     _(WRITE, 1, float, travelling) \

@@ -111,6 +111,19 @@ FN vec2 meet(CTX, vec3 q, float far, vec3 o, vec3 d, float t_in, float t_out, fl
 }
 #endif
 
+// On into the texel behind the one that is left at s_out; into another cell the look is a coarse one.
+#define ADVANCE \
+    s = s_out; \
+    w = w_out; \
+    q = q_out; \
+    const int from_x = x; \
+    const int from_y = y; \
+    if (met_x <= met_y) x = next_pixel(x, level, ahead_x); \
+    else if (level > 0) x = clamp(pixel_at(s, p.x, v.x, inverse_x, ahead_x), 0, last); \
+    if (met_y <= met_x) y = next_pixel(y, level, ahead_y); \
+    else if (level > 0) y = clamp(pixel_at(s, p.y, v.y, inverse_y, ahead_y), 0, last); \
+    if ((from_x >> params.coarse) != (x >> params.coarse) || (from_y >> params.coarse) != (y >> params.coarse)) level = params.coarse;
+
 // Walks one piece, from a to b: outcome (0: passed), t, texel of the map, looks. tw_a, tw_b: t w at its ends.
 FN vec4 walk(CTX, int probe, vec3 o, vec3 d, vec4 a, vec4 b, float tw_a, float tw_b, vec3 side, float start, int looked) {
     const float half_size = 0.5f * float(params.size);
@@ -144,52 +157,58 @@ FN vec4 walk(CTX, int probe, vec3 o, vec3 d, vec4 a, vec4 b, float tw_a, float t
     int looks = looked;
     while (s < 1.0f) {
         if (looks >= params.step_cap) return vec4(float(CAPPED), (tw_a + s * dtw) / w, float(y * params.size + x), float(looks));
-        ++looks;
-        // The map's borders are where pieces end, never crossed: along one a ray stays in its texels.
-        const int far_x = far_plane(x, level, ahead_x);
-        const int far_y = far_plane(y, level, ahead_y);
-        const float met_x = far_x == border_x ? ENDLESS : plane_met(far_x, p.x, inverse_x);
-        const float met_y = far_y == border_y ? ENDLESS : plane_met(far_y, p.y, inverse_y);
-        const float s_out = min(min(met_x, met_y), 1.0f);
-        const float w_out = s_out >= 1.0f ? b.w : a.w + s_out * dw;
-        const float q_out = q0 + s_out * (q1 + s_out * q2);
-        if (level > 0) {
-            const float least = least_at(ctx, (probe * cells + (y >> level)) * cells + (x >> level));
-            const float reach_in = least * (w - less);
-            const float reach_out = least * (w_out - less);
-            const bool in_front = least >= NO_SURFACE_AT ||
-                (reach_in > 0.0f && reach_out > 0.0f && q * 1.000004f < reach_in * reach_in && q_out * 1.000004f < reach_out * reach_out);
-            if (!in_front) {
-                level = 0;
-                continue;
+        // SPLIT: first all looks in front of everything, then what was met. Where a driver runs rays side by side, each look
+        // has the price of a meeting otherwise.
+        bool met = false;
+        float far = 0.0f;
+        float s_out = 0.0f;
+        float w_out = 0.0f;
+        float q_out = 0.0f;
+        float met_x = 0.0f;
+        float met_y = 0.0f;
+        do {
+            ++looks;
+            // The map's borders are where pieces end, never crossed: along one a ray stays in its texels.
+            const int far_x = far_plane(x, level, ahead_x);
+            const int far_y = far_plane(y, level, ahead_y);
+            met_x = far_x == border_x ? ENDLESS : plane_met(far_x, p.x, inverse_x);
+            met_y = far_y == border_y ? ENDLESS : plane_met(far_y, p.y, inverse_y);
+            s_out = min(min(met_x, met_y), 1.0f);
+            w_out = s_out >= 1.0f ? b.w : a.w + s_out * dw;
+            q_out = q0 + s_out * (q1 + s_out * q2);
+            bool passed = false;
+            if (level > 0) {
+                const float least = least_at(ctx, (probe * cells + (y >> level)) * cells + (x >> level));
+                const float reach_in = least * (w - less);
+                const float reach_out = least * (w_out - less);
+                passed = least >= NO_SURFACE_AT ||
+                    (reach_in > 0.0f && reach_out > 0.0f && q * 1.000004f < reach_in * reach_in && q_out * 1.000004f < reach_out * reach_out);
+                if (!passed) level = 0;
+            } else {
+                far = distance_at(ctx, probe_texel(probe, x, y, params.size));
+                const float reach_in = far * w;
+                const float reach_out = far * w_out;
+                passed = far >= NO_SURFACE_AT || (q < reach_in * reach_in && q_out < reach_out * reach_out && w_out > 0.0f);
+                met = !passed;
             }
-        } else {
-            const float far = distance_at(ctx, probe_texel(probe, x, y, params.size));
-            const float reach_in = far * w;
-            const float reach_out = far * w_out;
-            if (!(far >= NO_SURFACE_AT || (q < reach_in * reach_in && q_out < reach_out * reach_out && w_out > 0.0f))) {
-                const float t_in = (tw_a + s * dtw) / w;
-                const float t_out = w_out > 0.0f ? (s_out >= 1.0f ? tw_b : tw_a + s_out * dtw) / w_out : ENDLESS;
-                const vec3 centre = octahedron_point(octahedral_centre(x, y, params.size));
+            if (passed) {
+                ADVANCE
+            }
+        } while (SPLIT != 0 && !met && s < 1.0f && looks < params.step_cap);
+        if (met) {
+            const float t_in = (tw_a + s * dtw) / w;
+            const float t_out = w_out > 0.0f ? (s_out >= 1.0f ? tw_b : tw_a + s_out * dtw) / w_out : ENDLESS;
+            const vec3 centre = octahedron_point(octahedral_centre(x, y, params.size));
 #if NORMALS
-                const vec2 met = meet(ctx, probe_texel(probe, x, y, params.size), centre, far, o, d, t_in, max(t_out, t_in), sqrt(q) / w, start);
+            const vec2 found = meet(ctx, probe_texel(probe, x, y, params.size), centre, far, o, d, t_in, max(t_out, t_in),
+                                     sqrt(q) / w, start);
 #else
-                const vec2 met = meet(ctx, centre, far, o, d, t_in, max(t_out, t_in), sqrt(q) / w,
-                                      w_out > 0.0f ? sqrt(q_out) / w_out : ENDLESS, start);
+            const vec2 found = meet(ctx, centre, far, o, d, t_in, max(t_out, t_in), sqrt(q) / w,
+                                     w_out > 0.0f ? sqrt(q_out) / w_out : ENDLESS, start);
 #endif
-                if (met.x > 0.0f) return vec4(met.x, met.y, float(y * params.size + x), float(looks));
-            }
+            if (found.x > 0.0f) return vec4(found.x, found.y, float(y * params.size + x), float(looks));
+            ADVANCE
         }
-        s = s_out;
-        w = w_out;
-        q = q_out;
-        const int from_x = x;
-        const int from_y = y;
-        if (met_x <= met_y) x = next_pixel(x, level, ahead_x);
-        else if (level > 0) x = clamp(pixel_at(s, p.x, v.x, inverse_x, ahead_x), 0, last);
-        if (met_y <= met_x) y = next_pixel(y, level, ahead_y);
-        else if (level > 0) y = clamp(pixel_at(s, p.y, v.y, inverse_y, ahead_y), 0, last);
-        if ((from_x >> params.coarse) != (x >> params.coarse) || (from_y >> params.coarse) != (y >> params.coarse)) level = params.coarse;
     }
     return vec4(0.0f, 0.0f, 0.0f, float(looks));
 }

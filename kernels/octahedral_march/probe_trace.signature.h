@@ -41,6 +41,8 @@
 #define CONSTANTS(_) \
     _(0, int, ORDER, 0)   /* of a cage's probes: 0 (i + 3) mod 8, 1 xor */ \
     _(1, int, BITS, 8)    /* of a normal's coordinate, 8 or 16 */
+#define SHAPE(_) \
+    _(8, int, SPLIT, 0)   /* 1: looks, and what they meet, in loops of their own */
 #if F16
 #define DISTANCE uint
 #else

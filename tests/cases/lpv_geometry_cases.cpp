@@ -76,6 +76,9 @@ std::vector<Case> lpv_geometry_cases() {
                      p.surfels = {700, 0, 700, 100};
                      const auto both = injected_geometry(context, p, join(join(a, b), c));
                      if (!both) return both.status();
+                     p.surfels = {700, 700, 100, 0};
+                     const auto three = injected_geometry(context, p, join(join(a, b), c));
+                     if (!three) return three.status();
                      p.surfels = {700, 100, 0, 0};
                      const auto kept = injected_geometry(context, p, join(a, c), vb.value());
                      if (!kept) return kept.status();
@@ -87,7 +90,8 @@ std::vector<Case> lpv_geometry_cases() {
                            std::copy_n(other->begin() + static_cast<std::ptrdiff_t>(i), 4, expected.begin() + static_cast<std::ptrdiff_t>(i));
                            ++changed;
                          }
-                     return count_different(both.value(), expected) + count_different(kept.value(), expected) + (changed > 20 ? 0 : 1e9);
+                     return count_different(both.value(), expected) + count_different(three.value(), expected) +
+                            count_different(kept.value(), expected) + (changed > 20 ? 0 : 1e9);
                    }});
   cases.push_back({kernel, "geometry, two sources under the cube's 48 symmetries", "corners turn with the surfels (largest error over the largest coefficient)",
                    float_bound, [](Context& context) -> Result<double> {
@@ -155,6 +159,25 @@ std::vector<Case> lpv_geometry_cases() {
                      if (!u) return u.status();
                      return count_different(outcomes, Values{1, 3, 10, 0}) + count_different(large, Values{1, 0, 0, 1}) +
                             count_different(v.value(), w.value()) + count_different(u.value(), w.value());
+                   }});
+  cases.push_back({kernel, "geometry, surfels moved along their normals", "as those that lie there (values that differ)", 0,
+                   [](Context& context) -> Result<double> {
+                     LpvInjectGeometryParams p = params_of(grid_of(4, 4, 4));
+                     const auto there = injected_geometry(context, p, list_of({Surfel{{2.125, 1.25, 3}, {1, 0, 0}, 1}}));
+                     p.offset = 1.5;
+                     const auto moved = injected_geometry(context, p, list_of({Surfel{{0.625, 1.25, 3}, {1, 0, 0}, 1}}));
+                     if (!there) return there.status();
+                     if (!moved) return moved.status();
+                     return count_different(moved.value(), there.value());
+                   }});
+  cases.push_back({kernel, "geometry, an area that is no float once in cells", "dropped and counted (values and counts that differ)", 0,
+                   [](Context& context) -> Result<double> {
+                     LpvInjectGeometryParams p = params_of(grid_of(1, 1, 1));
+                     p.grid.cell = 1e-5;
+                     Values outcomes;
+                     const auto v = injected_geometry(context, p, list_of({Surfel{{0, 0, 0}, {1, 0, 0}, 1e30}}), {}, &outcomes);
+                     if (!v) return v.status();
+                     return count_different(v.value(), Values(v.value().size(), 0)) + count_different(outcomes, Values{0, 0, 1, 0});
                    }});
   cases.push_back({kernel, "geometry, a surfel without normal", "blocks as the mean over all normals (error of B)", float_bound,
                    [](Context& context) -> Result<double> {

@@ -187,8 +187,10 @@ void add_places(std::vector<Case>& cases) {
                          lights.push_back(l);
                          bad += 3;
                        }
-                     lights.push_back({{1.5, 1.5, 1.5}, {0, 1, 0}, {1, -1e-3, 1}});
-                     ++bad;
+                     for (std::size_t a = 0; a < 3; ++a, ++bad) {
+                       lights.push_back(one);
+                       lights.back().flux[a] = -1e-3;
+                     }
                      for (const double far : {-0.6, 4.6, 1e9, -1e9, 1e38})
                        lights.push_back({{1.5, far, 1.5}, {1, 0, 0}, {1, 1, 1}});
                      Values outcomes, clean;
@@ -201,16 +203,39 @@ void add_places(std::vector<Case>& cases) {
                      // What was dropped leaves no trace.
                      return count_different(outcomes, expected) + count_different(v.value(), w.value());
                    }});
-  cases.push_back({kernel, "inject, flux above flux_max", "counts as flux_max (values and counts that differ)", 0,
+  cases.push_back({kernel, "inject, flux above flux_max", "counts as flux_max, in any channel (values and counts that differ)", 0,
                    [](Context& context) -> Result<double> {
                      LpvInjectParams p = params_of(grid_of(1, 1, 1));
                      p.flux_max = 0.75;
-                     Values outcomes, two;
-                     const auto v = injected(context, p, list_of({Light{{0.5, 0.2, 0.5}, {0, 1, 0}, {3e30, 0.5, 0.75}}}), &outcomes);
-                     const auto w = injected(context, p, list_of({Light{{0.5, 0.2, 0.5}, {0, 1, 0}, {0.75, 0.5, 0.75}}}), &two);
-                     if (!v) return v.status();
-                     if (!w) return w.status();
-                     return count_different(v.value(), w.value()) + std::fabs(outcomes[3] - 1) + two[3] + std::fabs(outcomes[0] - 1);
+                     double wrong = 0;
+                     for (std::size_t a = 0; a < 3; ++a) {
+                       Light most{{0.5, 0.2, 0.5}, {0, 1, 0}, {0.25, 0.5, 0.125}};
+                       most.flux[a] = 0.75;
+                       Light more = most;
+                       more.flux[a] = 3e30;
+                       Values outcomes, two;
+                       const auto v = injected(context, p, list_of({more}), &outcomes);
+                       const auto w = injected(context, p, list_of({most}), &two);
+                       if (!v) return v.status();
+                       if (!w) return w.status();
+                       wrong += count_different(v.value(), w.value()) + std::fabs(outcomes[3] - 1) + two[3] + std::fabs(outcomes[0] - 1);
+                     }
+                     return wrong;
+                   }});
+  cases.push_back({kernel, "inject, one channel", "green and blue are not looked at (values and counts that differ)", 0,
+                   [](Context& context) -> Result<double> {
+                     LpvInjectParams p = params_of(grid_of(1, 1, 1));
+                     p.channels = 1;
+                     double wrong = 0;
+                     for (const double other : {-1.0, 3.0, std::nan("")}) {
+                       Values outcomes;
+                       const auto v = injected(context, p, list_of({Light{{0.5, 0.2, 0.5}, {0, 1, 0}, {0.5, other, other}}}), &outcomes);
+                       const auto w = injected(context, p, list_of({Light{{0.5, 0.2, 0.5}, {0, 1, 0}, {0.5, 0, 0}}}));
+                       if (!v) return v.status();
+                       if (!w) return w.status();
+                       wrong += count_different(v.value(), w.value()) + count_different(outcomes, Values{1, 0, 0, 0});
+                     }
+                     return wrong;
                    }});
   cases.push_back({kernel, "inject, no light at all", "every cell is written 0 (values that are not)", 0,
                    [](Context& context) -> Result<double> {
