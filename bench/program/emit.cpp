@@ -175,16 +175,16 @@ int run(const Arguments& a, const std::string& command) {
 
   // The plan at the size asked for, and at others, from which it shows what follows from the size.
   json plans = json::array(), sizes = json::array(), modules = json::object();
-  const std::vector<std::vector<int>> scales{{1, 1, 1}, {3, 5, 2}, {7, 3, 5}, {2, 9, 3}};
-  for (const std::vector<int>& scale : scales) {
+  // Larger ones by less than two, by which pyramids keep their number of levels where the size is a power of two.
+  constexpr double scales[][3] = {{1, 1, 1}, {1.13, 1.31, 1.57}, {1.83, 1.13, 1.31}, {1.31, 1.57, 1.13}, {1.57, 1.83, 1.83}};
+  for (const auto& scale : scales) {
     std::vector<int> at = size;
-    if (&scale != &scales.front())
-      for (std::size_t i = 0; i < at.size(); ++i) at[i] = at[i] * scale[i % 3] / 4 + 37 * scale[(i + 1) % 3];
+    for (std::size_t i = 0; i < at.size(); ++i) at[i] = static_cast<int>(at[i] * scale[i % 3]);
     emit::Settings all = emit::sized(*kernel, at);
     all.insert(all.end(), settings.begin(), settings.end());
     const Result<Plan> plan = kernel->plan(all, profile);
     if (!plan) {
-      if (&scale != &scales.front()) continue;
+      if (!plans.empty()) continue;
       return complain("emit: " + plan.status().message(), plan.status().code() == Code::invalid_argument ? misused : failed);
     }
     json named = json::object();

@@ -20,24 +20,25 @@ class Token:
 
 
 def tokenize(text):
-    tokens, above, fresh, at = [], [], True, 0
+    tokens, above, fresh, at, lines = [], [], True, 0, 0
     while at < len(text):
         match = TOKEN.match(text, at)
         if not match:
             raise SyntaxError(f"no word of the dialect: {text[at:at + 40]!r}")
         at, kind, word = match.end(), match.lastgroup, match.group()
         if kind == "line":
-            if fresh and above and above[-1]:
+            fresh, lines = True, lines + 1
+            if lines == 2 and above:
                 above.append("")  # a blank line between comments
-            fresh = True
         elif kind == "comment":
+            lines = 0
             if fresh or not tokens:
                 above.append(word)
             else:
                 tokens[-1].beside = word
         elif kind != "space":
             tokens.append(Token(kind, word, above))
-            above, fresh = [], False
+            above, fresh, lines = [], False, 0
     return tokens
 
 

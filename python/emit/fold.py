@@ -146,13 +146,16 @@ class Folder:
             if isinstance(va, int) and isinstance(vb, int) and not (op in "/%" and (va < 0 or vb <= 0)):
                 value = INT[op](va, vb)
                 return (literal(value) if {a[0], b[0]} == {"num"} or value in (0, 1) and op != "-" else self.plain(op, a, va, b, vb)), value
-        return self.plain(op, a, va, b, vb), None
+        less = self.plain(op, a, va, b, vb)
+        return less, 0 if less == ("num", "0") else None
 
     def plain(self, op, a, va, b, vb):
         """Without a whole number that changes nothing."""
         def is_int(e, v, what):
             return isinstance(v, int) and not isinstance(v, bool) and v == what and e[0] in ("num", "name") and \
                 not (e[0] == "num" and e[1][-1] in "uU")
+        if op == "*" and (is_int(a, va, 0) and not has_effects(b) or is_int(b, vb, 0) and not has_effects(a)):
+            return ("num", "0")
         if op == "*" and is_int(b, vb, 1) or op in ("+", "-") and is_int(b, vb, 0):
             return a
         if op == "*" and is_int(a, va, 1) or op == "+" and is_int(a, va, 0):
