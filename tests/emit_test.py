@@ -4,6 +4,7 @@
     emit_test.py PROGRAM EMITTED_SPIRV EXAMPLES quick|full [NAME...]     NAME: only these tests
 """
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -124,10 +125,13 @@ def run_all(manifest, out, given, results):
         values.tofile(out / f"{name}.raw")
         words.append(f"{name}={out / name}.raw")
     answers = {}
+    layers = {**os.environ, "VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation",
+              "VK_LAYER_ENABLES": "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"}
 
     def collect(which, *command):
         files = {name: out / f"{which}_{name}.raw" for name in results}
-        run(*command, *words, *(f"{n}={f}" for n, f in files.items()))
+        said = run(*command, *words, *(f"{n}={f}" for n, f in files.items()), env=layers)
+        assert "VUID" not in said and "SYNC-HAZARD" not in said, said  # what Vulkan forbids
         answers[which] = {n: f.read_bytes() for n, f in files.items()}
     path = out / f"{manifest['kernel']}.json"
     collect("spirv", EMITTED_SPIRV, path)
