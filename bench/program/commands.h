@@ -7,6 +7,7 @@ namespace luxel::program {
 
 void add_devices(CLI::App& app, int& exit_status);
 void add_list(CLI::App& app, int& exit_status);
+void add_emit(CLI::App& app, int& exit_status);
 void add_gaussian_blur(CLI::App& app, int& exit_status);
 void add_bilateral(CLI::App& app, int& exit_status);
 void add_denoise(CLI::App& app, int& exit_status);

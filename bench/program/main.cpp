@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
   int exit_status = done;
   add_devices(app, exit_status);
   add_list(app, exit_status);
+  add_emit(app, exit_status);
   add_gaussian_blur(app, exit_status);
   add_bilateral(app, exit_status);
   add_denoise(app, exit_status);
