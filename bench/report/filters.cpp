@@ -99,19 +99,25 @@ std::vector<Job> filter_grid(Session& session) {
     const std::string label = fmt::format("bilateral beside direct R {}: {}", radius, text);
     jobs.push_back({label, [&session, p, radius, label] { return measure_filter(session, p, radius, label); }});
   };
-  for (const int radius : session.settings().quick ? std::vector{4} : std::vector{4, 12}) {
-    add(plain(BilateralVariant::direct, radius), radius, "direct");
-    BilateralParams p = plain(BilateralVariant::direct, radius);
+  const Settings& wanted = session.settings();
+  const auto plain_of = [&](BilateralVariant variant, int radius) {
+    BilateralParams p = plain(variant, radius);
+    if (wanted.width > 0) p.width = wanted.width, p.height = wanted.height;
+    return p;
+  };
+  for (const int radius : wanted.radius > 0 ? std::vector{wanted.radius} : wanted.quick ? std::vector{4} : std::vector{4, 12}) {
+    add(plain_of(BilateralVariant::direct, radius), radius, "direct");
+    BilateralParams p = plain_of(BilateralVariant::direct, radius);
     p.step = 2;
     add(p, radius, "step 2");
-    p = plain(BilateralVariant::separable, radius);
+    p = plain_of(BilateralVariant::separable, radius);
     add(p, radius, "separable");
     p.adaptive = true;
     add(p, radius, "adaptive");
-    p = plain(BilateralVariant::atrous, radius);
-    p.levels = radius == 4 ? 2 : 3;
+    p = plain_of(BilateralVariant::atrous, radius);
+    p.levels = radius <= 4 ? 2 : 3;
     add(p, radius, fmt::format("atrous {} levels", p.levels));
-    p = plain(BilateralVariant::grid, radius);
+    p = plain_of(BilateralVariant::grid, radius);
     add(p, radius, "grid");
   }
   return jobs;
