@@ -88,7 +88,7 @@ void add_edges(std::vector<Instrument>& all) {
                            return worst_relative(r.value(), v) <= constant_bound;
                          };
                        }));
-  all.push_back(edge({"bilateral", "bilateral", "largest value", "values count as no number (documented): pixels stay as they are", 9.9e35, 3.4e38},
+  all.push_back(edge({"bilateral", "bilateral", "largest value", "squares of differences overflow and weigh nothing (from 1e36 on values count as no number)", 1e15, 1e36},
                      [](Context& device, Context&) -> Works {
                        return [&device](double value) -> Result<bool> {
                          BilateralParams p;
@@ -220,7 +220,7 @@ void add_edges(std::vector<Instrument>& all) {
                          return outcomes[static_cast<std::size_t>(LpvInjectCount::saturated)] == 0;
                        };
                      }));
-  all.push_back(edge({"lpv_inject", "light_propagation", "smallest flux of a light in flux_max (coefficients are a third of it, in steps of 2^-73)", "nothing of it arrives", 0x1p-71, 0x1p-99},
+  all.push_back(edge({"lpv_inject", "light_propagation", "smallest flux of a light in flux_max", "nothing of it arrives", 0x1p-48, 0x1p-99},
                      [injected](Context& device, Context&) -> Works {
                        return [&device, injected](double flux) -> Result<bool> {
                          Values outcomes;

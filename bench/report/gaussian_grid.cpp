@@ -118,7 +118,11 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
       for (const double k : some_ks) grid.add(files[i], params_for(*files[i], sigma, k), k);
   for (const double sigma : quick ? std::vector<double>{4} : sigmas) {
     const Shared impulse = impulse_for(sigma);
-    grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
+    if (quick)
+      for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box})
+        grid.add(impulse, params_for(*impulse, sigma, 0, Format::f32x1, variant), 0, BlurMetric::half_l1);
+    else
+      grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
     for (const double k : some_ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
       if (!quick)
@@ -132,15 +136,15 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   // Formats, borders and options at one sigma.
   for (const Format format : cases::pixel_formats)
     if (!quick) grid.without_taps(small, 4, format);
-  const std::vector<Format> formats_at_4 = quick ? std::vector{Format::f16x4, Format::unorm8x4}
+  const std::vector<Format> formats_at_4 = quick ? std::vector{Format::unorm8x4}
                                                  : std::vector(std::begin(cases::pixel_formats), std::end(cases::pixel_formats));
   for (const Format format : formats_at_4)
     for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
       for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
-        if (variant == GaussianVariant::separable || !quick || !session.is_cpu())
+        if (variant == GaussianVariant::separable || !quick)
           grid.add(small, params_for(*small, 4, k, format, variant), k);
   for (const Border border : {Border::mirror, Border::wrap, Border::zero}) {
-    if (quick && border != Border::mirror) continue;
+    if (quick) continue;
     GaussianBlurParams p = params_for(*small, 4, 3);
     p.border = border;
     grid.add(small, p, 3);

@@ -14,7 +14,7 @@
 
 namespace luxel::report {
 
-std::vector<Job> grid_jobs(Session& session, const std::string& kernel, std::vector<std::string>& missing) {
+std::vector<Job> grid_jobs(Session& session, const std::string& kernel, bool scenes, std::vector<std::string>& missing) {
   const Settings& settings = session.settings();
   std::vector<Job> jobs;
   const auto add = [&](std::vector<Job> more) {
@@ -29,25 +29,25 @@ std::vector<Job> grid_jobs(Session& session, const std::string& kernel, std::vec
   if (kernel == "gaussian_blur") add(gaussian_grid(session, files));
   if (kernel == "bilateral") {
     add(filter_grid(session));
-    add(denoise_grid(session, missing));
+    if (scenes) add(denoise_grid(session, missing));
   }
   if (kernel == "mip_build") add(mip_grid(session, mip_scenes(settings, files, missing)));
   if (kernel == "voxelize") add(voxel_jobs(session));
   if (kernel == "cone_trace") {
     add(cone_grid(session));
-    add(rendered_grid(session, missing));
+    if (scenes) add(rendered_grid(session, missing));
   }
   if (kernel == "hiz_ssr") {
     add(screen_grid(session));
-    add(screen_truth_grid(session, missing));
+    if (scenes) add(screen_truth_grid(session, missing));
   }
   if (kernel == "octahedral_march") {
     add(probe_grid(session));
-    add(probe_light_grid(session, missing));
+    if (scenes) add(probe_light_grid(session, missing));
   }
   if (kernel == "light_propagation") {
     add(propagation_grid(session));
-    add(lpv_scene_grid(session, missing));
+    if (scenes) add(lpv_scene_grid(session, missing));
   }
   return jobs;
 }

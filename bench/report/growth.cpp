@@ -174,13 +174,16 @@ Result<double> probes(Context& device, Context& exact, double scale) {
   return both > 0 ? sum / both : std::nan("");
 }
 
-// A ball far from the origin, its vertices in floats on the device: voxels that it has and the ball in double has not, or the
-// other way round, over all.
-Result<double> far_ball(Context& device, Context&, double away) {
-  VoxelGrid grid = cases::unit_grid(48);
-  const cases::Mesh ball = cases::icosphere({24.03, 23.98, 24.01}, 19, 4);
-  cases::Mesh there = ball;
-  for (double& c : there.positions) c += away;
+// Small walls across x far from the origin, their vertices in floats on the device: voxels that they have and those in double
+// have not, or the other way round, over all. A wall changes its layer with a chance of a quarter of a float's step.
+Result<double> far_walls(Context& device, Context&, double away) {
+  constexpr int n = 48;
+  VoxelGrid grid = cases::unit_grid(n);
+  cases::Mesh there;
+  for (std::uint32_t i = 0; i < 4 * n * n; ++i) {
+    const double x = away + 12 * (i % 4) + 1 + 10 * (scene::hash(i) * 0x1p-32), y = away + i / 4 % n, z = away + i / 4 / n;
+    there.add({x, y + 0.3, z + 0.3, x, y + 0.7, z + 0.3, x, y + 0.5, z + 0.7});
+  }
   grid.origin = {away, away, away};
   const Result<VoxelTriangles> triangles = voxel_triangles(there.view(), grid);
   if (!triangles) return triangles.status();
@@ -227,8 +230,8 @@ void add_growths(std::vector<Instrument>& all) {
                        {64, 128, 256, 512, 1024}, {32, 64, 128, 256}, screen));
   all.push_back(growth("octahedral_march", "octahedral_march", "the scale of the scene", "the power of the scale: none, to a twentieth", 0.05,
                        {1e-3, 1e-1, 10, 1e3, 1e4}, {1e-3, 1, 1e2, 1e4}, probes));
-  all.push_back(growth("voxelize", "voxelize", "the distance from the origin, vertices in floats", "the power of the distance, of voxels missing or extra: linear, and a fifth for counts of few voxels", 1.2,
-                       {1e5, 2e5, 5e5, 1e6, 2e6}, {1e5, 3e5, 1e6, 2e6}, far_ball));
+  all.push_back(growth("voxelize", "voxelize", "the distance from the origin, vertices in floats", "the power of the distance, of voxels missing or extra: linear, and a tenth for counts of some tens of voxels", 1.1,
+                       {0x1.8p16, 0x1.8p17, 0x1.8p18, 0x1.8p19, 0x1.8p20, 0x1.8p21}, {0x1.8p16, 0x1.8p18, 0x1.8p20, 0x1.8p21}, far_walls));
 }
 
 }  // namespace luxel::report

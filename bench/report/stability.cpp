@@ -14,7 +14,7 @@ std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all, bool
   std::vector<cases::Case> kept;
   for (const cases::Case& c : all)
     if (last[kind(c)] == &c) kept.push_back(c);
-  constexpr std::size_t most = 12;
+  const std::size_t most = growths ? 6 : 12;
   std::vector<cases::Case> some = kept;
   if (kept.size() > most) {
     some.clear();

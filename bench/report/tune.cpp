@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -111,7 +110,7 @@ std::string line_of(const Json& row) {
       if (v.is_boolean()) {
         if (v.get<bool>()) text += " " + name;
       } else {
-        text += fmt::format(" {} {}", name, text_of(v));
+        text += v.is_number_float() ? fmt::format(" {} {:.4g}", name, v.get<double>()) : fmt::format(" {} {}", name, text_of(v));
       }
     }
   return text;
@@ -188,7 +187,7 @@ int run_tune(const TuneRequest& request) {
     once.once = true;
     Sent sent;
     Session session(Context::open("cpu:float").value(), once, sent.fd(), 0);
-    const std::vector<Job> jobs = grid_jobs(session, kernel, missing);
+    const std::vector<Job> jobs = grid_jobs(session, kernel, !request.scene.empty(), missing);
     run_jobs(session, jobs, sent, "errors in C++", [](const Job&) { return false; },
              [&](const std::string& label, const Json& row) {
                first_rows.push_back(row);
@@ -200,7 +199,7 @@ int run_tune(const TuneRequest& request) {
   {
     Sent sent;
     Session session(opened.value(), r.settings, sent.fd(), 0);
-    const std::vector<Job> jobs = grid_jobs(session, kernel, missing);
+    const std::vector<Job> jobs = grid_jobs(session, kernel, !request.scene.empty(), missing);
     for (const Json& row : first_rows)
       if (wanted(r, row)) {
         settle(r, row);
@@ -237,8 +236,6 @@ int run_tune(const TuneRequest& request) {
     groups[key].push_back(c);
   };
   for (const Choice& c : choices) add(c);
-  std::set<std::string> timed;
-  for (const Choice& c : choices) timed.insert(group_of(c.row) + line_of(c.row));
   for (const auto& [label, rows] : known)
     for (const Choice& c : rows)
       if (wanted(r, c.row) && c.error > *r.max_error) add(c);

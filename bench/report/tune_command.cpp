@@ -77,7 +77,7 @@ void add_tune(CLI::App& app, int& exit_status) {
   command->add_option("--radius", a->request.settings.radius, "of bilateral: the window that is wanted, pixels, 1..24; default 4")
       ->type_name("R")
       ->check(CLI::Range(1, 24));
-  command->add_option("--scene", a->request.scene, "part of a scene's name, as the report has them; default: the kernel's first")->type_name("NAME");
+  command->add_option("--scene", a->request.scene, "part of a scene's name, as the report has them (cornell, atrium, ...); default: the kernel's first")->type_name("NAME");
   command->add_option("--size", a->size, "of gaussian_blur and bilateral: size of a generated image")->type_name("WxH");
   command->add_option("--metric", a->request.metric, "part of a metric's name; default: the kernel's first")->type_name("NAME");
   command->add_option("--fix", a->fixed, "an option or knob that is given: format=f16x4, bands=2, variant=hiz, size=64x64x64; may be given again")

@@ -93,7 +93,7 @@ class Search {
       const Result<Ready> made = ready(context_, subject, other);
       if (!made) continue;  // a shape that the device, or the kernel there, does not take
       if (made.value().bits != now.value().bits) {
-        fmt::print("  {} {}: other bits; this is a defect of luxel or the driver: left out\n", what, values[i]);
+        fmt::print("  {} {}: other bits, so no shape for this kernel here\n", what, values[i]);
         continue;
       }
       Result<Sample> r = ratio(now.value(), made.value(), 3);
