@@ -165,7 +165,7 @@ std::vector<std::string> devices_here() {
 
 // A few jobs with rows of all that must be kept: frontier and stability rows, shares, bits, limits; on C++ and one driver.
 std::vector<std::string> few_jobs() {
-  std::vector<std::string> words{"--quick", "--kernel", "gaussian_blur", "--only", "on step", "--only", "case sigma", "--only", "limit triad"};
+  std::vector<std::string> words{"--quick", "--kernel", "gaussian_blur", "--only", "on step", "--only", "case sigma 0", "--only", "limit "};
   for (const std::string& d : devices_here()) words.insert(words.end(), {"--device", d});
   return words;
 }
@@ -175,11 +175,11 @@ std::vector<std::string> with(std::vector<std::string> words, const std::string&
   return words;
 }
 
-TEST(ReportResume, GoesOnAfterInterruptionsAndAChildThatDies) {
+TEST(ReportResumeFull, GoesOnAfterInterruptionsAndAChildThatDies) {
   fs::remove_all(folder());
   {
     Running first(few_jobs());
-    first.until_finished(3);
+    first.until_finished(2);
     const std::vector<pid_t> children = first.children();
     ASSERT_FALSE(children.empty()) << first.errors();
     first.signal(SIGINT);
@@ -192,7 +192,7 @@ TEST(ReportResume, GoesOnAfterInterruptionsAndAChildThatDies) {
     EXPECT_FALSE(fs::exists(folder() / "cache"));
   }
   const std::size_t kept = Running::count("\"finished\"");
-  EXPECT_GE(kept, 3u);
+  EXPECT_GE(kept, 2u);
   const KeptJobs before = read_kept((folder() / "rows.jsonl").string());
   {
     Running third(few_jobs());
@@ -243,7 +243,7 @@ TEST(ReportResume, GoesOnAfterInterruptionsAndAChildThatDies) {
     Running dying(with(few_jobs(), "--fresh"));
     // The file is emptied before the first child begins.
     for (int i = 0; i < 4000 && Running::count("\"finished\"") >= after.size(); ++i) std::this_thread::sleep_for(5ms);
-    dying.until_finished(3);
+    dying.until_finished(1);  // of two that take a second each, and others after them
     const std::vector<pid_t> children = dying.children();
     ASSERT_EQ(children.size(), 1u) << dying.errors();
     ::kill(children.front(), SIGKILL);
