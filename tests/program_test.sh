@@ -79,7 +79,7 @@ END
 # ---- Help, lists, and words that nobody knows
 expect 0 'gaussian_blur' "$luxel" --help
 expect 0 '^luxel [0-9]+\.[0-9]+\.[0-9]+$' "$luxel" --version
-for command in devices list bench report gaussian_blur bilateral mip_build cone_trace; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
+for command in devices list bench report stability tune gaussian_blur bilateral mip_build cone_trace; do expect 0 "Usage: luxel $command" "$luxel" "$command" --help; done
 expect 0 'sigma.*0\.\.10000' "$luxel" gaussian_blur --help
 expect 0 'radius.*0\.\.4095.*default ceil\(3 sigma\)' "$luxel" gaussian_blur --help
 expect 0 'clamp\|mirror\|wrap\|zero; default clamp' "$luxel" gaussian_blur --help
@@ -491,6 +491,60 @@ expect 2 'small\.npy: has 2x2 pixels; --depth expects those of --in, 24x16' "${f
 expect 2 'depth\.npy: has 1 channels; --normal expects 3 or more' "${filter[@]}" --normal depth.npy
 expect 2 'BilateralParams\.radius is 500; expected -1\.\.96' "${filter[@]}" --radius 500
 expect 2 'missing\.npy' "${filter[@]}" --guide missing.npy
+
+# ---- Settings that are found by measuring, and promises
+"$luxel" gaussian_blur --in flat.npy --sigma 0 -o image.exr >out.txt
+tuned() {  # tuned STATUS HEADER ARGUMENT...: what is printed runs, and compiles
+  local status=$1 header=$2 got
+  shift 2
+  checks=$((checks + 1))
+  "$luxel" tune "$@" --quick --device cpu --json tuned.json >tuned.txt 2>err.txt
+  got=$?
+  [[ $got == "$status" ]] || fail "tune $*: exit status $got, expected $status" "$(cat tuned.txt err.txt)"
+  [[ $status == 0 ]] || return
+  [[ ! -s err.txt ]] || fail "tune $*: something on stderr" "$(cat err.txt)"
+  local command
+  command=$(sed -n 's/^  luxel //p' tuned.txt | head -n 1)
+  # shellcheck disable=SC2086
+  "$luxel" $command >out.txt 2>err.txt || fail "tune $*: its command fails: luxel $command" "$(cat err.txt)"
+  sed -n '/^#include/,/^}/p' tuned.txt >tuned.cpp
+  grep -q "luxel/$header" tuned.cpp || fail "tune $*: no C++" "$(cat tuned.txt)"
+  if command -v g++ >/dev/null; then
+    g++ -std=c++17 -Wall -Wextra -Werror -fsyntax-only -I "$root/include" tuned.cpp 2>err.txt || fail "tune $*: its C++ does not compile" "$(cat err.txt tuned.cpp)"
+  fi
+}
+tuned 0 gaussian_blur.h gaussian_blur --sigma 2 --size 64x48 --max-error 1e-2
+checks=$((checks + 1))
+python3 - <<'END' || fail "tune: its JSON"
+import json
+t = json.load(open('tuned.json'))
+a, = t['answers']
+assert 0 < a['found']['error'] <= t['max_error'] == 1e-2, a
+assert a['found']['row']['knobs']['sigma'] == 2 and a['found']['row']['size'] == '64x48'
+assert abs(a['margin']['used'] - a['found']['error'] / 1e-2) < 1e-12
+q = a['found']['time_ms']
+assert 0 < q['q1'] <= q['median'] <= q['q3']
+END
+tuned 0 bilateral.h bilateral --radius 2 --size 64x48 --max-ms 1e6
+checks=$((checks + 1))
+python3 - <<'END' || fail "tune: the most exact within a time is direct itself"
+import json
+a, = json.load(open('tuned.json'))['answers']
+assert a['found']['row']['variant'] == 'direct' and a['found']['error'] < 1e-5, a
+END
+tuned 1 none gaussian_blur --sigma 2 --size 64x48 --max-error 1e-12
+checks=$((checks + 1))
+grep -q 'none fits; nearest: .*: error ' tuned.txt && grep -q '^luxel: no setting of gaussian_blur has error at most 1e-12; the nearest stands above$' err.txt || fail "tune: what is nearest" "$(cat tuned.txt err.txt)"
+expect 2 'tune: expected one of --max-error and --max-ms' "$luxel" tune gaussian_blur
+expect 2 'tune: kernel is blur; expected one of: gaussian_blur, ' "$luxel" tune blur --max-ms 1
+expect 2 'tune: --size is 5; expected WIDTHxHEIGHT' "$luxel" tune gaussian_blur --max-ms 1 --size 5
+expect 2 'no setting of gaussian_blur fits what is asked for' "$luxel" tune gaussian_blur --max-ms 1e6 --size 16x16 --quick --device cpu --fix format=f16x2
+expect 2 'expected another: the C\+\+ execution has one shape' "$luxel" tune --profile --device cpu
+checks=$((checks + 1))
+"$luxel" stability mip_build --quick --device cpu --only 'case opacity 1' --only 'storage: f16x4' -o certificate >out.txt 2>err.txt ||
+  fail "stability: exit status" "$(cat out.txt err.txt)"
+grep -q ' cases: all kept$' out.txt && grep -q '^| storage: f16x4 | ' certificate/mip_build.md || fail "stability: table and page" "$(cat out.txt certificate/mip_build.md)"
+expect 2 'KERNEL is blur; expected one of' "$luxel" stability blur
 
 # ---- Real files
 if [[ -d $data/photos ]]; then

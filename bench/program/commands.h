@@ -20,5 +20,7 @@ void add_render(CLI::App& app, int& exit_status);
 void add_plan(CLI::App& app, int& exit_status);
 void add_bench(CLI::App& app, int& exit_status);
 void add_report(CLI::App& app, int& exit_status);
+void add_stability(CLI::App& app, int& exit_status);
+void add_tune(CLI::App& app, int& exit_status);
 
 }  // namespace luxel::program

@@ -9,6 +9,7 @@
 #include <luxel/reference.h>
 
 #include "bench/io/pixels.h"
+#include "bench/report/profile_file.h"
 
 namespace luxel::program {
 namespace {
@@ -119,12 +120,7 @@ void add_device_option(CLI::App& command, std::string& device) {
       ->type_name("NAME");
 }
 
-Result<std::shared_ptr<Context>> open_device(const std::string& device) {
-  if (!device.empty()) return Context::open(device);
-  for (const char* api : {"opencl", "vulkan"})
-    if (auto context = Context::open(api); context) return context;
-  return Context::open("cpu");
-}
+Result<std::shared_ptr<Context>> open_device(const std::string& device) { return report::open_tuned(device); }
 
 Status run_plan(Context& context, const Plan& plan, ResourceData& data, Times& times) {
   const auto program = context.compile(plan);

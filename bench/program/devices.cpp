@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include <fmt/format.h>
 
+#include "bench/report/profile_file.h"
 #include "commands.h"
 #include "common.h"
 
@@ -27,7 +29,9 @@ void add_devices(CLI::App& app, int& exit_status) {
     row("index", "api", "name", "driver", "profile");
     for (const DeviceInfo& d : found) {
       const char* api = d.api == Api::opencl ? "opencl" : d.api == Api::vulkan ? "vulkan" : "cpu";
-      row(std::to_string(d.index), api, d.name, d.driver, d.profile);
+      std::string profile = d.profile;
+      if (d.api != Api::cpu && std::filesystem::exists(report::profile_path(d))) profile += ", tuned: " + report::profile_path(d);
+      row(std::to_string(d.index), api, d.name, d.driver, profile);
     }
     exit_status = done;
     for (const std::string& problem : problems) complain(problem, done);

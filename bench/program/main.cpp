@@ -88,6 +88,8 @@ int run(int argc, char** argv) {
   add_plan(app, exit_status);
   add_bench(app, exit_status);
   add_report(app, exit_status);
+  add_stability(app, exit_status);
+  add_tune(app, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -8,6 +8,7 @@
 
 #include "bench/program/commands.h"
 #include "bench/report/bench.h"
+#include "bench/report/profile_file.h"
 #include "bench/report/report.h"
 
 namespace luxel::program {
@@ -47,7 +48,7 @@ int run(const Arguments& a) {
   if (!chosen) return misuse(chosen.status().message());
   int status = 0;
   for (const DeviceInfo& device : chosen.value()) {
-    const auto context = Context::open(std::to_string(device.index));
+    const auto context = report::open_tuned(std::to_string(device.index));
     if (!context) {
       fmt::print(stderr, "luxel: {}\n", context.status().message());
       status = 1;

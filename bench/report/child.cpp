@@ -3,11 +3,15 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -16,6 +20,10 @@ extern char** environ;
 
 namespace luxel::report {
 namespace {
+
+constexpr std::array ending_signals{SIGINT, SIGTERM, SIGHUP};
+volatile std::sig_atomic_t asked_to_end = 0;
+std::array<struct sigaction, ending_signals.size()> usual;
 
 std::vector<char*> pointers(std::vector<std::string>& words) {
   std::vector<char*> p;
@@ -38,6 +46,19 @@ std::vector<std::string> merged(const std::vector<std::string>& changes) {
 
 }  // namespace
 
+Interruptible::Interruptible() {
+  asked_to_end = 0;
+  struct sigaction action{};
+  action.sa_handler = [](int) { asked_to_end = 1; };  // no SA_RESTART: poll returns
+  for (std::size_t i = 0; i < ending_signals.size(); ++i) ::sigaction(ending_signals[i], &action, &usual[i]);
+}
+
+Interruptible::~Interruptible() {
+  for (std::size_t i = 0; i < ending_signals.size(); ++i) ::sigaction(ending_signals[i], &usual[i], nullptr);
+}
+
+bool interrupted() { return asked_to_end != 0; }
+
 std::string Ended::reason(int silence_s) const {
   if (!started) return "could not be started";
   if (hung) return fmt::format("no answer for {} s", silence_s);
@@ -57,8 +78,11 @@ Ended run_child(const std::vector<std::string>& argv, const std::vector<std::str
     ended.started = false;
     return ended;
   }
-  const pid_t pid = ::fork();
+  const pid_t parent = ::getpid(), pid = ::fork();
   if (pid == 0) {  // only calls that are safe between fork and exec
+    ::setpgid(0, 0);  // what the driver starts (a linker) ends with it
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (::getppid() != parent) ::_exit(127);
     ::dup2(out, 1);
     ::dup2(out, 2);
     if (ends[1] == child_fd)
@@ -76,17 +100,21 @@ Ended run_child(const std::vector<std::string>& argv, const std::vector<std::str
     return ended;
   }
 
+  ::setpgid(pid, pid);  // whichever of the two comes first
   std::string text;
   char buffer[1 << 16];
+  auto heard = std::chrono::steady_clock::now();
   for (;;) {
     pollfd wait{ends[0], POLLIN, 0};
-    const int ready = ::poll(&wait, 1, silence_s * 1000);
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) {
-      ended.hung = true;
-      ::kill(pid, SIGKILL);
+    const int ready = ::poll(&wait, 1, 200);  // not longer: a signal may come just before
+    ended.interrupted = interrupted();
+    ended.hung = ready == 0 && std::chrono::steady_clock::now() - heard > std::chrono::seconds(silence_s);
+    if (ended.interrupted || ended.hung) {
+      ::kill(-pid, SIGKILL);
       break;
     }
+    if (ready == 0 || (ready < 0 && errno == EINTR)) continue;
+    heard = std::chrono::steady_clock::now();
     const ssize_t n = ::read(ends[0], buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) break;

@@ -42,13 +42,18 @@ void add_report(CLI::App& app, int& exit_status) {
   command
       ->add_option("-o,--out", a->settings.out, "folder for report.json, index.html and pictures; default luxel-report")
       ->type_name("DIR");
+  command->add_flag("--fresh", a->settings.fresh, "measure everything anew, also what an earlier run finished in DIR");
+  command->add_flag("!--no-page", a->settings.page, "report.json and tables alone, without plots and page");
   // What the report starts its own children with.
   command->add_option("--list", a->list)->group("");
   command->add_option("--measure", a->measure)->group("");
   command->add_option("--guard-best", a->best_guard)->group("");
   command->add_flag("--first", a->first)->group("");
+  command->add_flag("--stability", a->settings.stability)->group("");
   command->footer(
-      "Exit status: 0; 1 when a promise is broken or a device died; 2 for wrong use.\n"
+      "Exit status: 0; 1 when a promise is broken or a device died; 2 for wrong use; 130 when interrupted.\n"
+      "A report goes on where an earlier one in DIR ended: what was finished is kept, unless the text of its kernels, the\n"
+      "device's driver or what is asked for is another. After changes elsewhere (host code, the report itself): --fresh.\n"
       "Errors are the same to the last digit in every run; times are medians with quartiles, taken again while the\n"
       "machine is busy. Photographs of the data folder that are absent are named and left out.");
   command->callback([a, &exit_status] {

@@ -22,9 +22,13 @@ Json options_of(const BilateralParams& p) {
 }
 
 Json knobs_of(const BilateralParams& p) {
-  if (p.variant == BilateralVariant::atrous)
-    return {{"levels", p.levels}, {"taps", p.taps}, {"sigma_luminance", p.sigma_luminance}};
-  return {{"radius", p.radius}, {"step", p.step}, {"sigma_space", p.sigma_space}, {"sigma_range", p.sigma_range}};
+  Json knobs = {{"radius", p.radius}, {"step", p.step}, {"sigma_space", p.sigma_space}, {"sigma_range", p.sigma_range}};
+  if (p.variant == BilateralVariant::atrous) knobs = {{"levels", p.levels}, {"taps", p.taps}, {"sigma_luminance", p.sigma_luminance}};
+  if (p.variant == BilateralVariant::atrous && p.range != RangeTerm::off) knobs["sigma_range"] = p.sigma_range;
+  if (p.variant == BilateralVariant::grid) knobs["high"] = p.high;
+  if (p.depth != DepthTerm::off) knobs["sigma_depth"] = p.sigma_depth, knobs["footprint"] = p.footprint;
+  if (p.normal) knobs["sigma_normal"] = p.sigma_normal;
+  return knobs;
 }
 
 Status write_inputs(cases::Run& run, std::initializer_list<std::pair<const char*, const std::vector<double>*>> inputs) {

@@ -175,7 +175,7 @@ Status measure_noise(Session& session, const Render& r, const BilateralParams& p
 Status measure_denoise(Session& session, const Render& r, const DenoiseParams& p, const std::string& label) {
   std::vector<double> times;
   Values color;
-  for (int turn = 0; turn < 9; ++turn) {
+  for (int turn = 0; turn < (session.settings().once ? 1 : session.settings().quick ? 5 : 9); ++turn) {
     const auto result = denoise(session.context(), r.noisy, p);
     if (!result) return result.status();
     times.push_back(result.value().ms);
@@ -254,7 +254,7 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
     add(p, fmt::format("discontinuity R {}", radius));
   }
   for (const int levels : quick ? std::vector{3} : std::vector{2, 3, 4, 5})
-    for (const int taps : {3, 5}) {
+    for (const int taps : quick ? std::vector{5} : std::vector{3, 5}) {
       BilateralParams p = guided(*r, BilateralVariant::atrous, 0);
       p.levels = levels;
       p.taps = taps;
@@ -269,7 +269,7 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
     p.high = 20;
     add(p, fmt::format("grid {}", cell));
   }
-  for (const bool clamp : {true, false})
+  for (const bool clamp : quick ? std::vector<bool>{true} : std::vector<bool>{true, false})
     for (const int levels : quick ? std::vector{5} : std::vector{3, 4, 5})
       for (const double sigma : quick ? std::vector{6.0} : std::vector{4.0, 6.0, 8.0}) {
         DenoiseParams p;

@@ -71,6 +71,20 @@ Result<std::vector<DeviceInfo>> choose_devices(const std::vector<DeviceInfo>& al
 std::string take_line(Gathered& g, const std::string& line) {
   Json message = Json::parse(line, nullptr, false);
   if (!message.is_object()) return {};
+  const std::string of_job = message.contains("job") ? line : std::string();
+  if (message.contains("kept") && message["kept"].is_string()) {
+    const auto job = g.kept.find(message["kept"].get<std::string>());
+    if (job == g.kept.end()) return {};
+    ++g.from_before;
+    for (const std::string& earlier : job->second.lines) take_line(g, earlier);
+    return {};
+  }
+  if (message.contains("finished") && message["finished"].is_object()) {
+    ++g.finished;
+    g.best_guard = std::max(g.best_guard, message["finished"].value("guard", 0.0));
+    return of_job;
+  }
+  if (message.contains("begin")) return of_job;
   if (message.contains("done")) {
     g.last_done = message.value("done", 0);
     g.last_of = message.value("of", 0);
@@ -96,7 +110,7 @@ std::string take_line(Gathered& g, const std::string& line) {
     } else if (device.contains(list)) {
       device[list].push_back(entry);
     }
-    return {};
+    return of_job;
   }
   const std::string section = message.value("section", "");
   if (!message.contains("row") || !check_row(section, message["row"]).empty()) return {};

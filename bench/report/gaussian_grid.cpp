@@ -92,18 +92,20 @@ Shared impulse_for(double sigma) {
 
 std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& files) {
   const bool quick = session.settings().quick;
+  const Settings& wanted = session.settings();
   const std::vector<double> sigmas =
-      quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 12, 16, 32};
+      wanted.sigma > 0 ? std::vector<double>{wanted.sigma} : quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 12, 16, 32};
   const std::vector<double> ks = quick ? std::vector<double>{2, 3, 4} : std::vector<double>{1, 2, 3, 4, 5, 6};
   const std::vector<double> some_ks = quick ? std::vector<double>{3} : std::vector<double>{1, 2, 3, 4, 5, 6};
   Grid grid(session);
   const Shared small = std::make_shared<Scene>(landscape(quick ? 256 : 512, quick ? 256 : 512));
-  const Shared main = files.empty() ? small : files.front();
+  const Shared main = wanted.width > 0 ? std::make_shared<Scene>(landscape(wanted.width, wanted.height)) : files.empty() ? small : files.front();
 
   for (const double sigma : sigmas) {
-    grid.ways(main, sigma, quick && sigma != 4 ? some_ks : ks, Format::f32x4);
-    grid.without_taps(main, sigma, Format::f32x4);
+    grid.ways(main, sigma, quick && sigma != 4 && wanted.sigma == 0 ? some_ks : ks, Format::f32x4);
+    if (!quick || sigma >= 4 || wanted.sigma > 0) grid.without_taps(main, sigma, Format::f32x4);
   }
+  if (wanted.sigma > 0) return grid.take();  // the rest is of other sigmas
   // Where taps are many, only so many as the coarser variants' errors ask for.
   if (!quick && !session.is_cpu())
     for (const double sigma : {64.0, 100.0}) {
@@ -116,7 +118,11 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
       for (const double k : some_ks) grid.add(files[i], params_for(*files[i], sigma, k), k);
   for (const double sigma : quick ? std::vector<double>{4} : sigmas) {
     const Shared impulse = impulse_for(sigma);
-    grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
+    if (quick)
+      for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box})
+        grid.add(impulse, params_for(*impulse, sigma, 0, Format::f32x1, variant), 0, BlurMetric::half_l1);
+    else
+      grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
     for (const double k : some_ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
       if (!quick)
@@ -130,13 +136,15 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   // Formats, borders and options at one sigma.
   for (const Format format : cases::pixel_formats)
     if (!quick) grid.without_taps(small, 4, format);
-  for (const Format format : cases::pixel_formats)
+  const std::vector<Format> formats_at_4 = quick ? std::vector{Format::unorm8x4}
+                                                 : std::vector(std::begin(cases::pixel_formats), std::end(cases::pixel_formats));
+  for (const Format format : formats_at_4)
     for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
       for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
-        if (variant == GaussianVariant::separable || !quick || !session.is_cpu())
+        if (variant == GaussianVariant::separable || !quick)
           grid.add(small, params_for(*small, 4, k, format, variant), k);
   for (const Border border : {Border::mirror, Border::wrap, Border::zero}) {
-    if (quick && border != Border::mirror) continue;
+    if (quick) continue;
     GaussianBlurParams p = params_for(*small, 4, 3);
     p.border = border;
     grid.add(small, p, 3);
@@ -147,12 +155,13 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
     }
   }
   for (bool GaussianBlurParams::*const option : {&GaussianBlurParams::difference, &GaussianBlurParams::keep_alpha}) {
+    if (quick && option == &GaussianBlurParams::keep_alpha) continue;  // what it saves is measured
     GaussianBlurParams p = params_for(*small, 4, 3);
     p.*option = true;
     grid.add(small, p, 3);
   }
   for (const Format format : {Format::f16x4, Format::unorm8x4}) {
-    if (quick && format == Format::f16x4) continue;
+    if (quick) continue;  // what it saves is measured
     GaussianBlurParams p = params_for(*small, 4, 6, format);
     grid.add(small, p, 6);
     p.drop_taps = true;

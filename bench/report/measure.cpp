@@ -7,6 +7,7 @@
 #include "bench/report/cones.h"
 #include "bench/report/filters.h"
 #include "bench/report/gaussian.h"
+#include "bench/report/instruments.h"
 #include "bench/report/limits.h"
 #include "bench/report/lpv_scenes.h"
 #include "bench/report/mips.h"
@@ -15,6 +16,7 @@
 #include "bench/report/updates.h"
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
+#include "bench/report/profile_file.h"
 #include "bench/report/probes.h"
 #include "bench/report/probe_light.h"
 #include "bench/report/rendered.h"
@@ -42,6 +44,32 @@ void append(std::vector<T>& to, std::vector<T> more) {
   for (T& t : more) to.push_back(std::move(t));
 }
 
+// The cases of all kernels that are asked for, and what is found out by experiment.
+std::vector<Job> stability_alone(Session& session) {
+  const std::vector<std::pair<const char*, std::vector<cases::Case>>> lists{
+      {"gaussian_blur", cases::gaussian_blur_cases()},   {"bilateral", cases::bilateral_cases()},
+      {"mip_build", cases::mip_build_cases()},           {"voxelize", cases::voxelize_cases()},
+      {"voxelize", cases::voxel_inject_cases()},         {"cone_trace", cases::cone_trace_cases()},
+      {"hiz_ssr", cases::hiz_ssr_cases()},               {"octahedral_march", cases::octahedral_march_cases()},
+      {"octahedral_march", cases::probe_cases()},        {"light_propagation", cases::light_propagation_cases()},
+      {"light_propagation", cases::lpv_inject_cases()},  {"light_propagation", cases::lpv_geometry_cases()},
+      {"light_propagation", cases::lpv_sample_cases()}};
+  std::vector<Job> jobs;
+  for (const auto& [kernel, list] : lists)
+    if (session.settings().wants(kernel)) append(jobs, stability_jobs(session, list));
+  append(jobs, instrument_jobs(session));
+  return jobs;
+}
+
+// Those whose label has one of the texts that were asked for.
+void keep_only(const Settings& settings, std::vector<Job>& jobs) {
+  if (settings.only.empty()) return;
+  std::erase_if(jobs, [&](const Job& job) {
+    return std::none_of(settings.only.begin(), settings.only.end(),
+                        [&](const std::string& text) { return job.label.find(text) != std::string::npos; });
+  });
+}
+
 }  // namespace
 
 int measure_device(const Settings& settings, const std::string& device, double best_guard, bool first) {
@@ -51,7 +79,16 @@ int measure_device(const Settings& settings, const std::string& device, double b
     std::fprintf(stderr, "luxel: %s\n", opened.status().message().c_str());
     return 1;
   }
-  Session session(opened.value(), settings, child_fd, best_guard);
+  std::string problem;
+  const auto context = tuned(opened.value(), &problem);
+  Session session(context, settings, child_fd, best_guard);
+  if (!problem.empty()) session.note("problems", problem);
+  if (settings.stability) {
+    std::vector<Job> jobs = stability_alone(session);
+    keep_only(settings, jobs);
+    session.run(jobs);
+    return 0;
+  }
 
   std::vector<std::string> missing;
   std::vector<std::shared_ptr<const Scene>> files;
@@ -134,11 +171,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);
-  if (!settings.only.empty())
-    std::erase_if(jobs, [&](const Job& job) {
-      return std::none_of(settings.only.begin(), settings.only.end(),
-                          [&](const std::string& text) { return job.label.find(text) != std::string::npos; });
-    });
+  keep_only(settings, jobs);
   session.run(jobs);
   session.emit_promises();
   return 0;

@@ -210,7 +210,7 @@ Status measure(Session& session, const std::string& name, std::size_t rays, int 
   double dead = 0;
   for (const std::uint8_t alive : f->probes.alive) dead += alive == 0;
   FrontierRow row{"octahedral_march", "two levels", name, fmt::format("{} rays", rays),
-                  {{"distance", "f16"}, {"normal", normals ? "snorm8" : "none"}},
+                  {{"distance", "f16"}, {"normal", normals ? "snorm8" : "none"}, {"grid", fmt::format("{},{},{}", count[0], count[1], count[2])}},
                   {{"resolution", size}, {"probes", f->probes.size()}, {"dead", dead}, {"thickness", p.thickness}, {"agree", a.agree},
                    {"known_right", a.known_right}, {"median_footprints", a.median}, {"p95_footprints", a.p95}, {"relative", a.relative},
                    {"unknown", a.unknown}, {"capped", a.capped}, {"probes_a_ray", a.probes}, {"looks_a_ray", a.steps},

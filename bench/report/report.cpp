@@ -1,5 +1,9 @@
 #include "bench/report/report.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/io/image.h"
+#include "bench/report/certificate.h"
 #include "bench/report/child.h"
 #include "bench/report/limits.h"
 #include "bench/report/listing.h"
@@ -34,6 +39,7 @@ std::vector<std::string> child_arguments(const Settings& s, const std::string& d
   std::vector<std::string> argv{this_program(),          "report", "--measure", device, "--guard-best",
                                 fmt::format("{}", best), "-o",     s.out};
   if (s.quick) argv.push_back("--quick");
+  if (s.stability) argv.push_back("--stability");
   if (first) argv.push_back("--first");
   for (const std::string& kernel : s.kernels) argv.insert(argv.end(), {"--kernel", kernel});
   for (const std::string& image : s.images) argv.insert(argv.end(), {"--image", image});
@@ -88,6 +94,7 @@ std::string longest_jobs(const Gathered& gathered, const std::string& device) {
 
 void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered,
              Progress& progress, std::ofstream& rows) {
+  const int kept = gathered.from_before, of = gathered.of;
   gathered.devices.push_back(device_row(device));
   progress.begin(device.id);
   std::vector<std::string> environment = child_environment(s);
@@ -97,25 +104,20 @@ void measure(const Settings& s, const DeviceInfo& device, const std::string& nam
                                 [&](const std::string& line) {
                                   if (const std::string row = take_line(gathered, line); !row.empty())
                                     rows << row << std::endl;
+                                  gathered.of = of + gathered.last_of;
                                   progress.update(gathered.last_done, gathered.last_of, gathered.last_label);
                                 });
+  gathered.last_of = 0;
+  if (ended.interrupted) return;
   if (ended.died() || ended.status != 0)
     has_died(gathered, progress,
              fmt::format("{} died: {} while at: {}; see {}", device.id, ended.reason(silence_s),
                          gathered.last_label.empty() ? "its start" : gathered.last_label, log));
   gathered.last_label.clear();
+  if (gathered.from_before > kept)
+    progress.line(fmt::format("{}: {} of {} jobs are those of an earlier run; --fresh measures them again", device.id,
+                              gathered.from_before - kept, gathered.of - of));
   progress.line(longest_jobs(gathered, device.id));
-}
-
-Status write_file(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(part, path, error);
-  if (!file || error) return {Code::io, path + " could not be written; check the folder and the space on its disk"};
-  return {};
 }
 
 // The page and the plots are made by Python; without it the numbers stand all the same.
@@ -135,29 +137,70 @@ void render(const std::string& out) {
   fmt::print(stderr, "luxel: no page was made: {}\n", why);
 }
 
+// One report at a time writes to a folder.
+class Alone {
+ public:
+  explicit Alone(const std::string& folder) : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    held_ = fd_ >= 0 && ::flock(fd_, LOCK_EX | LOCK_NB) == 0;
+  }
+  ~Alone() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Alone(const Alone&) = delete;
+  Alone& operator=(const Alone&) = delete;
+  explicit operator bool() const { return held_; }
+
+ private:
+  int fd_;
+  bool held_ = false;
+};
+
+// The exit status of a shell's Ctrl-C, and a line that says what is lost (nothing that was finished).
+int say_interrupted(const Settings& settings, const Gathered& gathered, const std::vector<DeviceInfo>& chosen) {
+  std::error_code ignored;
+  fs::remove_all(settings.out + "/cache", ignored);
+  std::string left;
+  for (std::size_t i = gathered.devices.size(); i < chosen.size(); ++i) left += (left.empty() ? "" : ", ") + chosen[i].id;
+  const std::string kept =
+      gathered.of > 0 ? fmt::format("{} of {} jobs are kept", gathered.finished, gathered.of) : "nothing was lost";
+  fmt::print(stderr, "luxel: interrupted; run the same command to go on; {}{}\n", kept,
+             left.empty() ? "" : fmt::format(" (not begun: {})", left));
+  return 130;
+}
+
 }  // namespace
 
 int run_report(const Settings& settings) {
   for (const std::string& kernel : settings.kernels)
     if (std::find(measured_kernels().begin(), measured_kernels().end(), kernel) == measured_kernels().end())
-      return misuse(fmt::format("--kernel is {}; expected one of: {}", kernel, fmt::join(measured_kernels(), ", ")));
+      return misuse(fmt::format("{} is {}; expected one of: {}", settings.stability ? "KERNEL" : "--kernel", kernel, fmt::join(measured_kernels(), ", ")));
   for (const std::string& image : settings.images)
     if (const auto read = io::read_image(image); !read)
       return misuse(fmt::format("--image: {}", read.status().message()));
   std::error_code error;
-  fs::create_directories(settings.out + "/pictures", error);
+  fs::create_directories(settings.out + (settings.stability ? "" : "/pictures"), error);
+  const Alone alone(settings.out);
+  if (!error && !alone)
+    return misuse(fmt::format("-o {}: another report is being written there; wait for it or give another folder", settings.out));
+  const Interruptible interruptible;
+  const std::string rows_file = settings.out + "/rows.jsonl";
+  Gathered gathered;
+  if (!settings.fresh) gathered.kept = read_kept(rows_file);
   const std::string listing_log = settings.out + "/devices.log";
   const Listing listing = list_devices(
       [](const std::string& what) {
         return std::vector<std::string>{this_program(), "report", "--list", what};
       },
       listing_log);
+  if (interrupted()) return say_interrupted(settings, gathered, {});
   const auto chosen = choose_devices(listing.devices, settings.devices, listing.died);
   if (!chosen) return misuse(chosen.status().message());
   if (!error) fs::remove_all(settings.out + "/cache", error);
-  if (!error) fs::remove(settings.out + "/oracles.jsonl", error);
-  std::ofstream rows(settings.out + "/rows.jsonl", std::ios::trunc);
-  if (error || !rows)
+  if (!error && settings.fresh) fs::remove(settings.out + "/oracles.jsonl", error);
+  if (interrupted()) return say_interrupted(settings, gathered, chosen.value());
+  const Status kept = write_kept(rows_file, gathered.kept);
+  std::ofstream rows(rows_file, std::ios::app);
+  if (error || !kept || !rows)
     return misuse(fmt::format("-o {}: cannot write there; give a folder that can be made or written", settings.out));
 
   Progress progress;
@@ -165,13 +208,16 @@ int run_report(const Settings& settings) {
     for (const std::string& problem : listing.problems) progress.line(problem);
   Json about = machine();
   about["quick"] = settings.quick;
-  about["limits"] = machine_limits(settings.quick);
-  Gathered gathered;
-  gathered.best_guard = about["limits"].back()["rate"].get<double>();
+  about["limits"] = settings.stability ? Json::array() : machine_limits(settings.quick);
+  if (!settings.stability) gathered.best_guard = about["limits"].back()["rate"].get<double>();
   bool first = true;
   for (const DeviceInfo& device : chosen.value()) {
     measure(settings, device, name_to_open(device, listing.devices), first, gathered, progress, rows);
     first = false;
+    if (interrupted()) {
+      progress.end();
+      return say_interrupted(settings, gathered, chosen.value());
+    }
   }
   for (const std::string& api : listing.died) {
     const auto named = std::find(settings.devices.begin(), settings.devices.end(), api);
@@ -181,21 +227,26 @@ int run_report(const Settings& settings) {
   }
   progress.end();
   fs::remove_all(settings.out + "/cache", error);
-  fs::remove(settings.out + "/oracles.jsonl", error);
   for (const std::string& line : gathered.skipped) progress.line("skipped: " + line);
 
   const Json pictures = gathered.pictures;
-  const Json report = assemble(std::move(gathered), std::move(about));
+  const Json report = assemble(gathered, std::move(about));
   int status = exit_status_of(report);
   for (const std::string& defect : check_schema(report)) {
     fmt::print(stderr, "luxel: the report does not have its shape: {}; this is a defect of luxel: please report it\n",
                defect);
     status = 1;
   }
-  for (const auto& [file, json] : {std::pair{"report.json", &report}, {"pictures.json", &pictures}})
-    if (Status written = write_file(settings.out + "/" + file, json->dump(1) + "\n"); !written)
-      return misuse(written.message());
-  render(settings.out);
+  if (Status written = write_file(settings.out + "/report.json", report.dump(1) + "\n"); !written) return misuse(written.message());
+  if (settings.stability) {
+    for (const auto& [kernel, text] : certificate_pages(report))
+      if (Status written = write_file(settings.out + "/" + kernel + ".md", text); !written) return misuse(written.message());
+    print_certificate(report);
+    return status;
+  }
+  if (Status written = write_file(settings.out + "/pictures.json", pictures.dump(1) + "\n"); !written) return misuse(written.message());
+  if (settings.page) render(settings.out);
+  if (interrupted()) return say_interrupted(settings, gathered, chosen.value());
   print_tables(report, settings.out);
   return status;
 }

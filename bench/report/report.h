@@ -7,12 +7,14 @@
 #include <luxel/device.h>
 
 #include "bench/report/json.h"
+#include "bench/report/kept.h"
 #include "bench/report/settings.h"
 
 namespace luxel::report {
 
-/// Measures, writes DIR/report.json, pictures and page, prints tables. Returns the program's exit status: 0, 1 (a
-/// promise is broken or a device died), 2 (wrong use; one line on stderr).
+/// Measures, writes DIR/report.json, pictures and page, prints tables. Jobs that an earlier run in the same folder finished
+/// are taken from there. Returns the program's exit status: 0, 1 (a promise is broken or a device died), 2 (wrong use; one
+/// line on stderr), 130 (interrupted: what was finished is kept).
 int run_report(const Settings& settings);
 
 /// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where
@@ -32,10 +34,14 @@ struct Gathered {
   double best_guard = 0;
   int last_done = 0, last_of = 0;
   std::string last_label;
+  KeptJobs kept;                    // of an earlier run
+  int finished = 0, of = 0;         // jobs of all devices so far; `finished` counts those that are kept too
+  int from_before = 0;              // jobs that an earlier run finished
 };
 
-/// Takes in one line of a child that measures devices.back(). Returns the row's text for rows.jsonl, empty where the
-/// line is none; a line that is damaged (a child may die in the middle of one) counts as none.
+/// Takes in one line of a child that measures devices.back(); "kept" brings all lines of that job. Returns the line where
+/// rows.jsonl is to have it: rows, and what belongs to a job; else nothing. A line that is damaged (a child may die in the
+/// middle of one) counts as none.
 std::string take_line(Gathered& gathered, const std::string& line);
 
 /// The whole report; marks the frontier.

@@ -9,6 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/recorded.h"
+#include "host/module.h"
+
 namespace luxel::report {
 namespace {
 
@@ -31,28 +34,35 @@ std::uint64_t hash_values(const std::vector<double>& values) {
 }
 
 Session::Session(std::shared_ptr<Context> context, Settings settings, int rows, double best_guard)
-    : context_(std::move(context)), settings_(std::move(settings)), rows_(rows), guard_(best_guard) {
+    : settings_(std::move(settings)), rows_(rows), guard_(best_guard), kept_(read_kept(settings_.out + "/rows.jsonl")) {
+  context_ = noting(std::move(context));
   load_oracles();
 }
 
-namespace {
-
-// The C++ executions need no driver; they always open.
-std::shared_ptr<Context> open_cpu(const char* which) { return Context::open(which).value(); }
-
-}  // namespace
+// The context, with what it compiles noted for the kernel whose jobs run.
+std::shared_ptr<Context> Session::noting(std::shared_ptr<Context> context) {
+  return recorded(std::move(context), [this](const Plan& plan) {
+    for (const Pass& pass : plan.passes) {
+      const std::string name = std::string(pass.module->part) + "." + std::string(pass.module->name);
+      std::string& hash = compiled_[kernel_][name];
+      if (hash.empty()) hash = module_hash(name);
+    }
+  });
+}
 
 Context& Session::cpu_float() {
-  if (!cpu_float_) cpu_float_ = open_cpu("cpu:float");
+  // The C++ executions need no driver; they always open.
+  if (!cpu_float_) cpu_float_ = noting(Context::open("cpu:float").value());
   return *cpu_float_;
 }
 
 Context& Session::cpu_double() {
-  if (!cpu_double_) cpu_double_ = open_cpu("cpu:double");
+  if (!cpu_double_) cpu_double_ = noting(Context::open("cpu:double").value());
   return *cpu_double_;
 }
 
-void Session::send(const Json& message) {
+void Session::send(Json message) {
+  if (!job_.empty()) message["job"] = job_;
   const std::string line = message.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   std::size_t at = 0;
   while (at < line.size()) {
@@ -70,39 +80,73 @@ void Session::progress(std::size_t done, std::size_t of, const std::string& labe
   send({{"done", done}, {"of", of}, {"label", label}, {"guard", guard_.best()}});
 }
 
+bool Session::keep(const std::string& key, const std::string& label) {
+  const auto found = kept_.find(key);
+  if (found == kept_.end() || found->second.finished.value("label", "") != label) return false;
+  const Json& modules = found->second.finished["modules"];
+  if (!unchanged(modules)) return false;
+  for (const auto& [name, hash] : modules.items()) compiled_[kernel_][name] = hash.get<std::string>();
+  for (const std::string& line : found->second.lines) {
+    const Json j = Json::parse(line, nullptr, false);
+    const std::string list = j.value("note", "");
+    if (list != "bits" && list != "share") continue;
+    const Json& e = j.at("entry");
+    const std::string kernel = e.at("kernel"), what = e.at("label");
+    if (list == "bits")
+      add_bits(kernel, e.at("equal"), what);
+    else
+      add_share(kernel, e.at("name"), e.at("promise"), e.at("share").is_number() ? e.at("share").get<double>() : NAN, what);
+  }
+  send({{"kept", key}});
+  return true;
+}
+
 void Session::run(const std::vector<Job>& jobs) {
+  std::map<std::string, int> times;  // that a label was met
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    progress(i, jobs.size(), jobs[i].label);
+    const std::string& label = jobs[i].label;
+    progress(i, jobs.size(), label);
+    kernel_ = kernel_of(label);
+    const int earlier = times[label]++;
+    const std::string key = job_key(context_->info(), context_->profile(), settings_,
+                                    earlier > 0 ? fmt::format("{}|{}", label, earlier) : label);
+    if (keep(key, label)) continue;
+    job_ = key;
+    send({{"begin", label}});
     const auto begin = std::chrono::steady_clock::now();
     const Status status = jobs[i].run();
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
-    note("spent", {{"label", jobs[i].label}, {"seconds", spent.count()}});
-    if (status) continue;
-    note("problems", fmt::format("{}: {}", jobs[i].label, status.message()));
-    if (status.code() == Code::unsupported) continue;
-    row("stability", {{"kernel", kernel_of(jobs[i].label)},
-                      {"case", "runs: " + jobs[i].label},
-                      {"device", device()},
-                      {"promise", "every setting of the report runs: " + status.message()},
-                      {"bound", 0},
-                      {"measured", 1},
-                      {"pass", false}});
+    note("spent", {{"label", label}, {"seconds", spent.count()}});
+    if (!status) note("problems", fmt::format("{}: {}", label, status.message()));
+    if (!status && status.code() != Code::unsupported)
+      row("stability", {{"kernel", kernel_of(label)},
+                        {"case", "runs: " + label},
+                        {"device", device()},
+                        {"promise", "every setting of the report runs: " + status.message()},
+                        {"bound", 0},
+                        {"measured", 1},
+                        {"pass", false}});
+    else
+      send({{"finished", {{"label", label}, {"modules", Json(compiled_[kernel_])}, {"guard", guard_.best()}}}});
+    job_.clear();
   }
+  kernel_.clear();
   progress(jobs.size(), jobs.size(), "");
 }
 
 template <class Take>
 auto Session::guarded(const Take& take, const std::string& label) -> decltype(take()) {
   ++timed_;
-  // Where the machine is busy all the time, taking rows again does not help: it is bounded.
-  const auto may_retake = [&] { return retaken_ < std::max(20, timed_ / 4); };
+  // Where the machine is busy all the time, taking rows again does not help: it is bounded, and more so in quick reports.
+  const int most = settings_.quick ? 1 : 3;
+  const auto may_retake = [&] { return retaken_ < (settings_.quick ? std::max(8, timed_ / 10) : std::max(20, timed_ / 4)); };
   double lowest = 0;
   for (int attempt = 0;; ++attempt) {
     const double before = guard_.measure();
     auto taken = take();
     lowest = std::min(before, guard_.measure());
     if (!taken.ok() || guard_.quiet(lowest)) return taken;
-    if (attempt == 3 || !may_retake()) {
+    if (attempt == most || !may_retake()) {
       note("busy", {{"label", label}, {"gflops", lowest}, {"best", guard_.best()}});
       return taken;
     }
@@ -114,6 +158,7 @@ auto Session::guarded(const Take& take, const std::string& label) -> decltype(ta
 Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   Times first, second;
   if (Status status = run.go(1, &first); !status) return status;
+  if (settings_.once) return summarise({first.total});
   if (Status status = run.go(1, &second); !status) return status;
   note("first_use", {{"label", label}, {"compile_ms", run.compile_ms()}, {"first_run_ms", first.total}});
   const double one = std::max(1e-3, std::min(first.total, second.total));
@@ -136,6 +181,12 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
 }
 
 Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const std::string& label) {
+  if (settings_.once) {
+    const Result<double> first = a(), second = b();
+    if (!first) return first.status();
+    if (!second) return second.status();
+    return Pair{{first.value()}, {second.value()}};
+  }
   double one = 0;
   for (const Timed* warm : {&a, &b, &a, &b}) {
     const Result<double> ms = (*warm)();
@@ -163,11 +214,12 @@ void Session::load_oracles() {
   std::ifstream file(settings_.out + "/oracles.jsonl");
   for (std::string line; std::getline(file, line);) {
     const Json j = Json::parse(line, nullptr, false);
-    if (!j.is_object()) continue;
+    if (!j.is_object() || !j.contains("modules") || !unchanged(j["modules"])) continue;
+    std::vector<Oracle>& list = oracles_[j.at("key").get<std::string>()];
+    list.clear();
     for (const Json& o : j.at("oracles")) {
       const auto number = [&](const char* field) { return o.at(field).is_number() ? o.at(field).get<double>() : NAN; };
-      oracles_[j.at("key").get<std::string>()].push_back(
-          {o.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"), number("method")});
+      list.push_back({o.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"), number("method")});
     }
   }
 }
@@ -180,8 +232,9 @@ Result<std::vector<Oracle>> Session::oracles(const std::string& key,
   Json list = Json::array();
   for (const Oracle& o : made.value())
     list.push_back({{"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}});
+  // A line of its own, also after one that a killed process left in its middle.
   std::ofstream(settings_.out + "/oracles.jsonl", std::ios::app)
-      << Json({{"key", key}, {"oracles", list}}).dump() + "\n";
+      << "\n" + Json({{"key", key}, {"oracles", list}, {"modules", Json(compiled_[kernel_])}}).dump() + "\n";
   return oracles_[key] = std::move(made).value();
 }
 
@@ -234,6 +287,11 @@ void Session::frontier(const FrontierRow& r) {
 }
 
 void Session::promise_bits(const std::string& kernel, bool equal, const std::string& label) {
+  note("bits", {{"kernel", kernel}, {"equal", equal}, {"label", label}});
+  add_bits(kernel, equal, label);
+}
+
+void Session::add_bits(const std::string& kernel, bool equal, const std::string& label) {
   Bits& bits = bits_[kernel];
   bits.checked += 1;
   if (equal) return;
@@ -243,6 +301,12 @@ void Session::promise_bits(const std::string& kernel, bool equal, const std::str
 
 void Session::promise_share(const std::string& kernel, const std::string& name, const std::string& promise,
                             double share, const std::string& label) {
+  note("share", {{"kernel", kernel}, {"name", name}, {"promise", promise}, {"share", share}, {"label", label}});
+  add_share(kernel, name, promise, share, label);
+}
+
+void Session::add_share(const std::string& kernel, const std::string& name, const std::string& promise, double share,
+                        const std::string& label) {
   Share& s = shares_[{kernel, name}];
   s.promise = promise;
   if (std::isnan(s.most) || share <= s.most) return;

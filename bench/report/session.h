@@ -13,6 +13,7 @@
 #include "bench/report/frontier_row.h"
 #include "bench/report/guard.h"
 #include "bench/report/json.h"
+#include "bench/report/kept.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
 
@@ -56,7 +57,8 @@ class Session {
   void progress(std::size_t done, std::size_t of, const std::string& label);
 
   /// Runs jobs in order. A job that fails becomes a problem of the device, and unless the code is `unsupported` (a
-  /// device may lack a feature) a broken promise.
+  /// device may lack a feature) a broken promise. Jobs that an earlier run finished, by kernels whose text is still the
+  /// same, are named as kept and not run again; those that failed are.
   void run(const std::vector<Job>& jobs);
 
   /// Milliseconds of one run, warm, several runs a sample where one is short. Taken again while the machine is busy;
@@ -91,8 +93,13 @@ class Session {
   void emit_promises();
 
  private:
-  void send(const Json& message);
+  std::shared_ptr<Context> noting(std::shared_ptr<Context> context);
+  void send(Json message);
   void load_oracles();
+  bool keep(const std::string& key, const std::string& label);
+  void add_bits(const std::string& kernel, bool equal, const std::string& label);
+  void add_share(const std::string& kernel, const std::string& name, const std::string& promise, double share,
+                 const std::string& label);
   Result<std::vector<Oracle>> oracles(const std::string& key,
                                       const std::function<Result<std::vector<Oracle>>()>& compute);
   template <class Take>
@@ -105,6 +112,10 @@ class Session {
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, std::vector<Oracle>> oracles_;
   std::set<std::string> seen_;
+  KeptJobs kept_;
+  std::string job_, kernel_;  // the job that runs: its key, and its label's kernel; empty: none
+  // Hash by module, of all that jobs of a kernel compiled: scenes and oracles that one of them made serve the next.
+  std::map<std::string, std::map<std::string, std::string>> compiled_;
   struct Bits {
     double checked = 0, different = 0;
     std::string first;

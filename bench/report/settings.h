@@ -7,6 +7,14 @@ namespace luxel::report {
 
 struct Settings {
   bool quick = false;
+  bool once = false;       // errors are what is wanted: times are those of a single run
+  // What `luxel tune` wants of a kernel's grid, where that lets it be chosen; 0: the grid's own.
+  int width = 0, height = 0;  // of images
+  double sigma = 0;           // gaussian_blur
+  int radius = 0;             // bilateral
+  bool stability = false;  // promises alone: `luxel stability`
+  bool fresh = false;  // what an earlier run left in `out` does not count
+  bool page = true;    // index.html and plots too
   std::vector<std::string> devices;  // as Context::open takes them; empty: all but the execution in double
   std::vector<std::string> kernels;  // empty: all
   std::vector<std::string> images;   // files beside the built-in scenes; empty: those of the data folder

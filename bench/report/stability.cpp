@@ -1,22 +1,30 @@
 #include "bench/report/stability.h"
 
+#include <algorithm>
 #include <map>
 
 namespace luxel::report {
 namespace {
 
 // The last of each kind: the furthest of a list that goes outwards. Of more than a dozen kinds, some from all over the list.
-std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all) {
+std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all, bool growths) {
   const auto kind = [](const cases::Case& c) { return c.name.substr(0, c.name.find_first_of(",0123456789")); };
   std::map<std::string, const cases::Case*> last;
   for (const cases::Case& c : all) last[kind(c)] = &c;
   std::vector<cases::Case> kept;
   for (const cases::Case& c : all)
     if (last[kind(c)] == &c) kept.push_back(c);
-  constexpr std::size_t most = 12;
-  if (kept.size() <= most) return kept;
-  std::vector<cases::Case> some;
-  for (std::size_t i = 0; i < most; ++i) some.push_back(kept[i * kept.size() / most]);
+  const std::size_t most = growths ? 6 : 12;
+  std::vector<cases::Case> some = kept;
+  if (kept.size() > most) {
+    some.clear();
+    for (std::size_t i = 0; i < most; ++i) some.push_back(kept[i * kept.size() / most]);
+  }
+  // What is iterated, in every form.
+  for (const cases::Case& c : all)
+    if (growths && c.name.starts_with("growth") &&
+        std::none_of(some.begin(), some.end(), [&](const cases::Case& s) { return s.name == c.name; }))
+      some.push_back(c);
   return some;
 }
 
@@ -27,7 +35,7 @@ std::vector<Job> stability_jobs(Session& session, const std::vector<cases::Case>
   std::vector<cases::Case> all;
   for (const cases::Case& c : cases)
     if (cases::applies(c, session.context().info()) && !(c.slow && settings.quick)) all.push_back(c);
-  if (settings.quick && settings.only.empty() && !session.is_cpu()) all = last_of_kinds(all);
+  if (settings.quick && settings.only.empty() && !session.is_cpu()) all = last_of_kinds(all, settings.stability);
   std::vector<Job> jobs;
   for (const cases::Case& c : all) {
     jobs.push_back({c.kernel + " case " + c.name, [&session, c]() -> Status {

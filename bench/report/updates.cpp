@@ -68,7 +68,8 @@ Result<SceneVoxels> windows_of(const scene::Scene& from, int extent, int whole) 
 Status scroll(Session& session, const std::string& shown, const std::string& what) {
   const auto read = scene::scene_from(what);
   if (!read) return read.status();
-  const int extent = session.settings().quick || session.is_cpu() ? 64 : 128;
+  const bool quick = session.settings().quick;
+  const int extent = quick && session.is_cpu() ? 32 : quick || session.is_cpu() ? 64 : 128;
   const auto voxels = windows_of(read.value(), extent, 4 * extent);
   if (!voxels) return voxels.status();
   SharedPlans plans(session.context());
@@ -76,7 +77,7 @@ Status scroll(Session& session, const std::string& shown, const std::string& wha
   VoxelizeParams window = shape(voxels.value());
   window.toroidal = true;
   const std::map<std::string, std::string> other{{"colour", "anew"}, {"normal", "anew normal"}};
-  for (const int by : {1, 4, 16, extent / 2}) {
+  for (const int by : quick ? std::vector{4, extent / 2} : std::vector{1, 4, 16, extent / 2}) {
     VoxelizeParams before = window;
     for (std::size_t k = 0; k < 3; ++k) before.window[k] = -extent / 2;
     VoxelizeParams after = before;

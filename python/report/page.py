@@ -130,7 +130,8 @@ def kernel_section(report, kernel, pictures, figures, folder):
         '<p class="note">Error: the sum of its parts, no less than the whole. Rounding: float against double. Storage: '
         'rounding by the format of the result. Device: against C++ in float, 0 where the bits are equal. Method: '
         'double '
-        'against the truth. A filled point is on the frontier: nothing is as exact and faster beyond the quartiles. '
+        'against the truth. A filled point is on the frontier: no setting whose error is not larger has a third quartile '
+        'of time below its first; settings whose quartiles overlap are not told apart, and both stay. '
         'The pointer on a point names its setting.</p>'
     )
     mine = [figure for figure in figures if figure[0] == kernel]

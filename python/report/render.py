@@ -5,6 +5,7 @@ usage: render.py DIR
 """
 
 import json
+import os
 import pathlib
 import sys
 
@@ -32,7 +33,9 @@ def main():
         return 2
     figures = plots.draw(report, folder / "plots")
     methods = plots.draw_methods(report, folder / "plots")
-    (folder / "index.html").write_text(page.page(report, pictures, figures, folder, methods))
+    part = folder / "index.html.part"
+    part.write_text(page.page(report, pictures, figures, folder, methods))
+    os.replace(part, folder / "index.html")  # whole or not at all
     return 0
 
 
