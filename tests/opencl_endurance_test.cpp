@@ -39,24 +39,25 @@ class OpenClEndurance : public testing::Test {
 
 TEST_F(OpenClEndurance, TwoHundredPipelinesAreMadeRunAndGone) {
   write(queue.get(), src, counting(count));
-  std::size_t before = 0;
+  std::size_t before = 0, allocated = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i == 50) before = resident_bytes();
+    if (i == 50) before = resident_bytes(), allocated = allocated_bytes();
     const Pipeline made = pipeline(plan);
     const Status status = made.enqueue(queue.get(), bindings);
     ASSERT_TRUE(status.ok()) << status.message();
     ASSERT_EQ(clFinish(queue.get()), CL_SUCCESS);
   }
   EXPECT_LE(resident_bytes(), before + resident_noise);
+  EXPECT_LE(allocated_bytes(), allocated + allocated_noise);
   EXPECT_EQ(read<float>(queue.get(), dst, count), tiny_result(counting(count), passes));
 }
 
 TEST_F(OpenClEndurance, TenThousandRunsOfOnePipeline) {
   write(queue.get(), src, counting(count));
   const Pipeline made = pipeline(plan);
-  std::size_t before = 0;
+  std::size_t before = 0, allocated = 0;
   for (int i = 0; i < 10000; ++i) {
-    if (i == 1000) before = resident_bytes();
+    if (i == 1000) before = resident_bytes(), allocated = allocated_bytes();
     const Status status = made.enqueue(queue.get(), bindings);
     ASSERT_TRUE(status.ok()) << status.message();
     if (i % 16 == 15) {
@@ -65,6 +66,7 @@ TEST_F(OpenClEndurance, TenThousandRunsOfOnePipeline) {
   }
   ASSERT_EQ(clFinish(queue.get()), CL_SUCCESS);
   EXPECT_LE(resident_bytes(), before + resident_noise);
+  EXPECT_LE(allocated_bytes(), allocated + allocated_noise);
   EXPECT_EQ(read<float>(queue.get(), dst, count), tiny_result(counting(count), passes));
 }
 

@@ -43,14 +43,15 @@ struct Recorder {
 TEST_F(VulkanEndurance, TenThousandPipelinesAreMadeRecordedAndGone) {
   const Plan plan = engine.plan(Input::buffer, 16, 16, 1);
   Recorder recorder(engine, engine.pipeline(plan));
-  std::size_t before = 0;
+  std::size_t before = 0, allocated = 0;
   for (int i = 0; i < 10000; ++i) {
-    if (i == 1000) before = resident_bytes();
+    if (i == 1000) before = resident_bytes(), allocated = allocated_bytes();
     const Pipeline pipeline = engine.pipeline(plan);
     const Status status = recorder.record(engine, pipeline);
     ASSERT_TRUE(status.ok()) << status.message();
   }
   EXPECT_LE(resident_bytes(), before + resident_noise);
+  EXPECT_LE(allocated_bytes(), allocated + allocated_noise);
 }
 
 TEST_F(VulkanEndurance, TenThousandFramesOfOnePipeline) {
@@ -58,9 +59,9 @@ TEST_F(VulkanEndurance, TenThousandFramesOfOnePipeline) {
   Bound bound(engine, pipeline.plan());
   Commands commands(*engine.machine);
   ASSERT_EQ(commands.result, VK_SUCCESS);
-  std::size_t before = 0;
+  std::size_t before = 0, allocated = 0;
   for (int i = 0; i < 10000; ++i) {
-    if (i == 1000) before = resident_bytes();
+    if (i == 1000) before = resident_bytes(), allocated = allocated_bytes();
     Options options(engine, pipeline);
     ASSERT_EQ(commands.begin(), VK_SUCCESS);
     const Status status = pipeline.record(commands.buffer, bound.bindings, options.record);
@@ -70,6 +71,7 @@ TEST_F(VulkanEndurance, TenThousandFramesOfOnePipeline) {
     ASSERT_TRUE(ran.ok()) << ran.message();
   }
   EXPECT_LE(resident_bytes(), before + resident_noise);
+  EXPECT_LE(allocated_bytes(), allocated + allocated_noise);
   Bound once(engine, pipeline.plan());
   ASSERT_TRUE(once.run(pipeline).ok());
   EXPECT_EQ(bound.output(), once.output());
