@@ -113,5 +113,32 @@ class Build(unittest.TestCase):
             generate.parse_build("#define PARAMETERS(_)\n")
 
 
+class Mutants(unittest.TestCase):
+    def test_every_list_fits_the_kernels(self):
+        lists = sorted((generate.ROOT / "tests/mutants").glob("*.txt"))
+        self.assertGreaterEqual(len(lists), 8)
+        for path in lists:
+            mutants, tests = generate.read_mutants(path)
+            self.assertTrue(mutants and tests, path)
+            for name, _, before, after in mutants:
+                self.assertNotEqual(before, after, f"{path}: {name}")
+
+    def test_one_fault_is_built_in(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = generate.ROOT / "tests/mutants/mip_build.txt"
+            _, file, before, after = generate.read_mutants(path)[0][0]
+            copy = generate.with_mutant(f"{path}:0", pathlib.Path(folder) / "kernels")
+            self.assertEqual((copy / file).read_text(), (generate.KERNELS / file).read_text().replace(before, after))
+            changed = [p for p in copy.rglob("*") if p.is_file() and p.read_bytes() != (generate.KERNELS / p.relative_to(copy)).read_bytes()]
+            self.assertEqual(changed, [copy / file])
+
+    def test_a_text_that_is_not_there_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "a.txt"
+            path.write_text("tests: ^a_\n\nnothing\nmath/bound.h\n- no such text\n+ other\n")
+            with self.assertRaisesRegex(SystemExit, "does not stand once"):
+                generate.read_mutants(path)
+
+
 if __name__ == "__main__":
     unittest.main()

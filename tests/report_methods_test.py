@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The report's page: the panel that holds all methods of global illumination."""
+import json
 import pathlib
 import sys
 import tempfile
@@ -84,6 +85,16 @@ class AllMethods(unittest.TestCase):
             self.assertIn('id="methods"', section)
             self.assertIn("box, vulkan:b: which one to take", section)
             self.assertEqual(page.methods({"frontier": []}, []), "")
+
+    @unittest.skipIf(plots is None, "matplotlib is missing: the report says so in place of a page")
+    def test_faults_that_pass_are_shown(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "score.json"
+            self.assertEqual(page.mutation(path), "")
+            fault = {"kernel": "k", "fault": "max for min", "before": "min(", "after": "max("}
+            path.write_text(json.dumps([{**fault, "caught_by": "K.Bounds"}, {**fault, "caught_by": None}]))
+            self.assertIn("1 of 2 deliberate faults", page.mutation(path))
+            self.assertEqual(page.mutation(path).count("<tr class=bad>"), 1)
 
 
 if __name__ == "__main__":

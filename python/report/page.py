@@ -2,6 +2,8 @@
 
 import base64
 import html
+import json
+import pathlib
 
 import rows
 import takeover
@@ -336,6 +338,23 @@ def reproduction(report):
     )
 
 
+MUTANTS = pathlib.Path(__file__).resolve().parents[2] / "tests/mutants/score.json"
+
+
+def mutation(path=MUTANTS):
+    """Deliberate faults in the kernels, and what noticed them (tests/mutation.py)."""
+    if not path.exists():
+        return ""
+    faults = json.loads(path.read_text())
+    body = [(row, [row["kernel"], row["fault"], row["before"], row["after"], row["caught_by"] or "nothing"]) for row in faults]
+    caught = sum(1 for row in faults if row["caught_by"])
+    return (
+        f'<h2 id="mutation">The tests, tested</h2><p class=note>{caught} of {len(faults)} deliberate faults, built into the kernels '
+        "one at a time, are noticed by the tests of the C++ execution alone.</p>"
+        + details("the list", table(["kernel", "fault", "text", "in its place", "noticed by"], body, lambda row: not row["caught_by"]))
+    )
+
+
 def limits(report):
     machine = report["machine"]
     entries = [("machine", entry) for entry in machine.get("limits", [])]
@@ -398,6 +417,7 @@ def page(report, pictures, figures, folder, all_methods=()):
     parts += [kernel_section(report, kernel, pictures, figures, folder) for kernel in kernels]
     parts.append(methods(report, all_methods))
     parts.append(reproduction(report))
+    parts.append(mutation())
     parts.append('<h2 id="machine">Devices and limits</h2>')
     parts.append(
         table(
