@@ -16,7 +16,8 @@ struct LpvInjectParams {
   int channels = 3;               // 3, or 1: the first of each flux
   Format format = Format::f32x4;  // of the volume: f32x4 or f16x4
   double flux_max = 1;            // largest flux of a channel, 1e-30..1e30. Lights of 2^-48 of it and more are summed exactly,
-                                  // weaker ones are rounded (below 2^-70 of it nothing is left); stronger ones count as this, and as saturated
+                                  // weaker ones are rounded, below 2^-70 of it nothing is left; stronger ones count as this,
+                                  // and as saturated
   double offset = 0.5;            // lights are moved so many cells along their normals, off their own surfaces, -4..4
   bool per_area = true;           // the volume holds I / cell^2, radiance, which does not change with the scene's scale; false: I
   bool count = false;             // fills `outcomes`
