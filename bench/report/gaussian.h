@@ -45,5 +45,6 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<std::shared_p
 std::vector<Job> gaussian_left_out(Session& session);
 std::vector<Job> gaussian_reproduction(Session& session);
 std::vector<Job> gaussian_peers(Session& session);
+std::vector<Job> gaussian_scipy(Session& session);
 
 }  // namespace luxel::report

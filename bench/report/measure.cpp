@@ -102,6 +102,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, gaussian_left_out(session));
     append(jobs, gaussian_reproduction(session));
     append(jobs, gaussian_peers(session));
+    append(jobs, gaussian_scipy(session));
     append(jobs, stability_jobs(session, cases::gaussian_blur_cases()));
     if (first) append(jobs, gaussian_pictures(session, files));
   }

@@ -1,5 +1,7 @@
 """The Python package: every kernel's call on arrays, the same results on every device, and errors that name what is wrong."""
+import json
 import os
+import pathlib
 
 import luxel
 import numpy as np
@@ -172,3 +174,13 @@ def test_the_program_is_found_or_asked_for(monkeypatch):
     monkeypatch.setenv("LUXEL_PROGRAM", "/no/such/program")
     with pytest.raises(luxel.Error, match="set LUXEL_PROGRAM"):
         luxel.report()
+
+
+@pytest.mark.parametrize("path", sorted((pathlib.Path(__file__).resolve().parents[2] / "examples/notebooks").glob("*.ipynb")), ids=lambda p: p.stem)
+def test_notebooks_run(path, capsys):
+    names = {}
+    for cell in json.loads(path.read_text())["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)  # pylint: disable=exec-used
+    printed = capsys.readouterr().out
+    assert "expected 0..10000" in printed and " ms" in printed
