@@ -90,7 +90,8 @@ TEST(MipBuildFull, BoundsHoldForEveryWidthAndSomeHeightsOnDevices) {
   for (const std::string& device : test_devices())
     for (const MipBuildParams& p : bound_kinds())
       for (int width = 1; width <= largest; ++width)
-        for (const int height : {1, 3, 32, 257}) check_bounds(device, p, width, height, width % 2 == 0);
+        for (const int height : {1, 3, 32, 257})
+          if (p.format == Format::f32x2 || height == 3) check_bounds(device, p, width, height, width % 2 == 0);
 }
 
 // One bound alone, with the sizes that hiz_ssr walks: min, and max for reversed depth. mip_build_stability_test has both

@@ -299,6 +299,14 @@ class Parser:
             condition = self.expression()
             self.take(")")
             return Statement("while", e=condition, parts=[self.one()])
+        if word == "do":
+            self.take()
+            body = self.one()
+            self.take("while")
+            self.take("(")
+            condition = self.expression()
+            self.take(")")
+            return self.ended(Statement("do", e=condition, parts=[body]))
         if word == "return":
             self.take()
             return self.ended(Statement("return", e=None if self.peek() == ";" else self.expression()))

@@ -212,6 +212,11 @@ class Folder:
             if value is not None and not value:
                 return []
             return [replace(s, e=condition, parts=[self.block(s.parts[0], declared)])]
+        if s.kind == "do":
+            condition, value = self.fold(s.e)
+            body = self.block(s.parts[0], declared)
+            once = value is not None and not value and not any(p.kind in ("break", "continue") for p in statements(body))
+            return [replace(s, kind="block", parts=body)] if once else [replace(s, e=condition, parts=[body])]
         if s.kind == "for":
             return self.loop(s, declared)
         if s.kind == "declare":
@@ -295,7 +300,7 @@ def drop_unused(body, used):
             continue
         elif s.kind == "if":
             s = replace(s, parts=[drop_unused(p, used) if p is not None else None for p in s.parts])
-        elif s.kind in ("for", "while"):
+        elif s.kind in ("for", "while", "do"):
             s = replace(s, parts=[drop_unused(s.parts[0], used)])
         elif s.kind == "block":
             s = replace(s, parts=drop_unused(s.parts, used))

@@ -189,6 +189,8 @@ class Printer:
             return lines + self.phases(s.parts, indent)
         if s.kind == "if":
             return lines + self.branch(f"if ({self.e(s.e)})", s, indent)
+        if s.kind == "do":
+            return lines + [lead + "do {"] + self.body(s.parts[0], indent + 4) + wrap(f"}} while ({self.e(s.e)});", indent)
         if s.kind == "while":
             head = f"while ({self.e(s.e)})"
         else:
