@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <glm/glm.hpp>
+
 #include "bench/io/array.h"
 #include "tests/cases/voxelize_support.h"
 #include "tests/support/voxels.h"
@@ -333,6 +335,56 @@ TEST(Voxelize, WhatDoesNotFitIsCountedAndNotWritten) {
       EXPECT_EQ(part.count(which), whole.count(which)) << device << " " << static_cast<int>(which);
       if (which != VoxelizeCount::fragments) continue;
       EXPECT_EQ(part.bytes.at("colour"), whole.bytes.at("colour")) << device;
+    }
+  }
+}
+
+// Voxels of a grid whose box meets the triangle's bounds and plane, and its three edges as seen along the axis in which its normal
+// is largest, in double.
+std::vector<char> dilated_by_definition(const std::array<glm::dvec3, 3>& v, int n) {
+  const glm::dvec3 normal = glm::cross(v[1] - v[0], v[2] - v[0]), size = glm::abs(normal);
+  const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
+  const glm::dvec3 low = glm::min(v[0], glm::min(v[1], v[2])), high = glm::max(v[0], glm::max(v[1], v[2]));
+  std::vector<char> meets;
+  for (int z = 0; z < n; ++z)
+    for (int y = 0; y < n; ++y)
+      for (int x = 0; x < n; ++x) {
+        const glm::dvec3 c(x + 0.5, y + 0.5, z + 0.5);
+        bool all = std::fabs(glm::dot(normal, c - v[0])) <= 0.5 * (size.x + size.y + size.z);
+        for (int k = 0; k < 3; ++k) {
+          all = all && c[k] + 0.5 >= low[k] && c[k] - 0.5 <= high[k];
+          const glm::dvec3 p = v[static_cast<std::size_t>(k)], e = v[static_cast<std::size_t>((k + 1) % 3)] - p;
+          const double side = (e[a] * (c[b] - p[b]) - e[b] * (c[a] - p[a])) * (normal[axis] < 0 ? -1 : 1);
+          all = all && side >= -0.5 * (std::fabs(e[a]) + std::fabs(e[b]));
+        }
+        meets.push_back(all);
+      }
+  return meets;
+}
+
+TEST(Voxelize, DilatedIsItsDefinition) {
+  const VoxelGrid grid = unit_grid(32);
+  for (const auto& v : {std::array<glm::dvec3, 3>{{{2.1, 2.2, 5.3}, {29.7, 3.4, 11.1}, {30.2, 2.6, 12.7}}},
+                        std::array<glm::dvec3, 3>{{{20.3, 4.1, 3.2}, {5.6, 25.3, 4.7}, {11.2, 9.4, 28.9}}}}) {
+    Mesh mesh;
+    mesh.add({v[0].x, v[0].y, v[0].z, v[1].x, v[1].y, v[1].z, v[2].x, v[2].y, v[2].z});
+    const VoxelTriangles triangles = prepare(mesh, grid);
+    VoxelizeParams params = voxelize_params(grid, triangles);
+    // Only bricks that the triangle meets are looked at.
+    const std::vector<char> exact = occupied(params, voxelize(test_context("cpu"), params, triangles));
+    const auto brick_of = [](int i) { return i % 32 / 8 + i / 32 % 32 / 8 * 4 + i / 1024 / 8 * 16; };
+    std::set<int> bricks;
+    for (int i = 0; i < 32768; ++i)
+      if (exact[static_cast<std::size_t>(i)]) bricks.insert(brick_of(i));
+    std::vector<char> expected = dilated_by_definition(v, 32);
+    for (int i = 0; i < 32768; ++i)
+      if (!bricks.contains(brick_of(i))) expected[static_cast<std::size_t>(i)] = 0;
+    params.mode = VoxelizeMode::dilated;
+    for (const std::string& device : test_devices()) {
+      const std::vector<char> found = occupied(params, voxelize(test_context(device), params, triangles));
+      std::size_t different = 0;
+      for (std::size_t i = 0; i < found.size(); ++i) different += (found[i] != 0) != (expected[i] != 0);
+      EXPECT_EQ(different, 0u) << device << ", of " << std::count(expected.begin(), expected.end(), 1);
     }
   }
 }
