@@ -30,6 +30,26 @@ Values mirrors(std::size_t pixels, std::array<double, 3> n) {
   return v;
 }
 
+TEST(HizSsr, ConfidenceFadesTowardsTheEdgesOfTheImage) {
+  for (const std::string& device : with_double()) {
+    HizSsrParams p = ssr_params(48, 40);
+    p.rays = 300;
+    p.fade_edge = 0.25;
+    const Values depth = height_field(48, 40, 5), rays = screen_rays(p, p.rays, 6);
+    const auto r = follow(test_context(device), p, depth, rays);
+    ASSERT_TRUE(r) << r.status().message();
+    int faded = 0, whole = 0;
+    for (std::size_t i = 0; i < 300; ++i) {
+      if (r.value().outcome(i) != SsrOutcome::hit) continue;
+      const double u = r.value().hits[4 * i], v = r.value().hits[4 * i + 1], rim = std::min({u, 1 - u, v, 1 - v});
+      EXPECT_NEAR(r.value().hits[4 * i + 3], std::min(rim / 0.25, 1.0), 1e-6) << device << " ray " << i;
+      (rim < 0.25 ? faded : whole) += 1;
+    }
+    EXPECT_GT(faded, 10) << device;
+    EXPECT_GT(whole, 10) << device;
+  }
+}
+
 // A wall at depth 4 in the right half of the view, nothing in the left: a ray from (-1, 0, -2) along (3, 0, -2) meets it
 // at (2, 0, -4), which is seen at 32.5 + 16 * 2 / 4 = 40.5.
 TEST(HizSsr, ARayMeetsAWallWhereItDoesOnPaper) {

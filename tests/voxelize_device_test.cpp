@@ -68,6 +68,42 @@ TEST(VoxelizeDevice, WhatCannotBeTakenIsCounted) {
   }
 }
 
+TEST(VoxelizeDevice, NaNInAnyCoordinateIsFound) {
+  const VoxelGrid grid = unit_grid(16);
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    Mesh mesh;
+    for (int k = 0; k < 9; ++k) {
+      std::array<double, 9> v{1, 1, 1, 2, 2, 9, 1, 12, 2};
+      v[static_cast<std::size_t>(k)] = bad;
+      mesh.add({v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[8]});
+    }
+    VoxelizeParams params = voxelize_params(grid, voxel_triangles(mesh.view(), grid).value());
+    params.blocks = params.pieces = params.bricks = 64;
+    for (const std::string& device : test_devices()) {
+      const Voxelized result = run(test_context(device), mesh, there(mesh, grid, params));
+      EXPECT_EQ(result.count(VoxelizeCount::not_finite), 9u) << device << " " << bad;
+      EXPECT_EQ(result.count(VoxelizeCount::far), 0u) << device << " " << bad;
+      EXPECT_EQ(result.count(VoxelizeCount::occupied), 0u) << device << " " << bad;
+    }
+  }
+}
+
+// A floor a quarter of a step below a face of voxels is rounded onto it, and touches both sides.
+TEST(VoxelizeDevice, RoundsToTheNearestStep) {
+  const VoxelGrid grid = unit_grid(16);
+  const double z = 4 - 0x1p-18;
+  Mesh mesh;
+  mesh.add({1.5, 1.5, z, 12.5, 1.5, z, 1.5, 12.5, z});
+  const VoxelTriangles triangles = voxel_triangles(mesh.view(), grid).value();
+  const VoxelizeParams params = voxelize_params(grid, triangles);
+  for (const std::string& device : test_devices()) {
+    const std::vector<char> host = occupied(params, voxelize(test_context(device), params, triangles));
+    const std::vector<char> set = occupied(params, run(test_context(device), mesh, there(mesh, grid, params)));
+    EXPECT_EQ(different(set, host), 0u) << device;
+    EXPECT_TRUE(set[(3 * 16 + 4) * 16 + 4] && set[(4 * 16 + 4) * 16 + 4]) << device;
+  }
+}
+
 // Far beyond what the host clips at, -2..3 grids, and not clipped: a floor across the grid.
 TEST(VoxelizeDevice, AFloorOfManyGridsIsWhole) {
   const VoxelGrid grid = unit_grid(16);
