@@ -342,7 +342,7 @@ MUTANTS = pathlib.Path(__file__).resolve().parents[2] / "tests/mutants/score.jso
 
 
 def mutation(path=MUTANTS):
-    """Deliberate faults in the kernels, and what noticed them (tests/mutation.py)."""
+    """Deliberate faults in the kernels that were tried, and what noticed them (tests/mutation.py)."""
     if not path.exists():
         return ""
     faults = json.loads(path.read_text())
