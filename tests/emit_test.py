@@ -16,8 +16,8 @@ import numpy
 
 PROGRAM, EMITTED_SPIRV, EXAMPLES, LABEL = sys.argv[1:5]
 ROOT = pathlib.Path(__file__).resolve().parents[1]
-sys.path.insert(0, str(ROOT / "python/emit"))
-import spirv  # noqa: E402  (python/emit)
+sys.path.insert(0, str(ROOT / "kernels/portable"))
+import spirv  # noqa: E402
 
 failures = []
 
@@ -136,7 +136,7 @@ def run_all(manifest, out, given, results):
     path = out / f"{manifest['kernel']}.json"
     collect("spirv", EMITTED_SPIRV, path)
     collect("opencl", sys.executable, pathlib.Path(EXAMPLES) / "emitted_opencl.py", path)
-    # GLSL: compiled here, as an engine does with its own build, and kept from contraction as python/emit/spirv.py does.
+    # GLSL: compiled here, as an engine does with its own build, and kept from contraction as kernels/portable/spirv.py does.
     glsl = out / "by_glsl"
     glsl.mkdir()
     shutil.copy(path, glsl)

@@ -15,7 +15,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "kernels/portable"))
-from generate import fnv1a, read_mutants  # noqa: E402
+from generate import read_mutants  # noqa: E402
 
 
 def run(command, **more):
@@ -60,8 +60,8 @@ class Build:
         return failed[0] if failed else f"{late[0]} does not end" if late else done.stdout.strip().splitlines()[-1]
 
 
-def judge(build, kernel, mutants, tests, known):
-    rows = []
+def judge(build, kernel, mutants, tests):
+    """A row for each fault, as it is known."""
     for number, (name, file, before, after) in enumerate(mutants):
         begin = time.monotonic()
         build.configure(f"{kernel}:{number}")
@@ -69,10 +69,8 @@ def judge(build, kernel, mutants, tests, known):
         if made.returncode:
             sys.exit(f"{kernel}: {name}: does not compile\n{made.stdout[-3000:]}")
         caught = build.check(tests["quick"]) or build.check(tests["full"])
-        rows.append({"kernel": kernel, "fault": name, "file": file, "before": before, "after": after, "caught_by": caught})
         print(f"{kernel:18} {name:60} {caught or 'PASSES UNNOTICED'}  ({time.monotonic() - begin:.0f} s)", flush=True)
-        known(rows[-1])
-    return rows
+        yield {"kernel": kernel, "fault": name, "file": file, "before": before, "after": after, "caught_by": caught}
 
 
 def main():
@@ -94,15 +92,11 @@ def main():
         unsound = made.returncode or build.check(tests["quick"])
         if unsound:
             sys.exit(f"{kernel}: its tests fail without any fault: {unsound}\n{made.stdout[-3000:] if made.returncode else ''}")
-        text = "".join(path.read_text() for path in sorted((ROOT / "kernels" / kernel).glob("*.h")))
         rows = [row for row in rows if row["kernel"] != kernel]
-
-        def known(row):
-            rows.append({**row, "kernel_text": f"{fnv1a(text.encode()):016x}"})
+        for row in judge(build, kernel, mutants, tests):
+            rows.append(row)
             rows.sort(key=lambda r: r["kernel"])
             args.out.write_text(json.dumps(rows, indent=1) + "\n")
-
-        judge(build, kernel, mutants, tests, known)
     build.configure("")
     missed = [row for row in rows if row["kernel"] in kernels and not row["caught_by"]]
     checked = [row for row in rows if row["kernel"] in kernels]

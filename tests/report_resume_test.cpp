@@ -13,10 +13,12 @@
 #include <sstream>
 #include <thread>
 
+#include "bench/io/temporary_folder.h"
 #include "bench/report/kept.h"
 #include "bench/report/report.h"
 #include "bench/report/schema.h"
 #include "host/module.h"
+#include "tests/report/errors_of.h"
 #include "tests/support/run.h"
 
 namespace luxel::report {
@@ -39,7 +41,7 @@ std::string finished(const std::string& key, const Json& modules = Json::object(
 }
 
 TEST(ReportKept, OnlyJobsWhoseEveryLineIsThere) {
-  const fs::path path = fs::path(testing::TempDir()) / "luxel_kept.jsonl";
+  const fs::path path = fs::path(testing::TempDir()) / ("luxel_kept_" + std::to_string(::getpid()) + ".jsonl");
   const auto begin = [](const char* key) { return line_of({{"begin", "a"}, {"job", key}}); };
   const auto note = [](const char* key, int v) { return line_of({{"note", "limits"}, {"entry", v}, {"job", key}}); };
   std::ofstream(path) << begin("whole") << "\n" << note("whole", 1) << "\n" << finished("whole") << "\n"
@@ -89,7 +91,8 @@ TEST(ReportKept, KernelsDriversAndRequestsAreTold) {
 // --- The program itself
 
 const fs::path& folder() {
-  static const fs::path path = fs::path(testing::TempDir()) / "luxel_report_resume";
+  static const io::TemporaryFolder around("luxel-report-resume");  // what the program prints stands beside the report
+  static const fs::path path = fs::path(around.path()) / "report";
   return path;
 }
 
@@ -146,15 +149,6 @@ class Running {
 bool alive(pid_t pid) { return ::kill(pid, 0) == 0; }
 
 Json report() { return Json::parse(slurp(folder() / "report.json"), nullptr, false); }
-
-// Every number that is no time.
-Json errors_of(const Json& report) {
-  Json all = Json::array();
-  for (const Json& r : report["frontier"])
-    all.push_back({r["kernel"], r["device"], r["scene"], r["options"], r["knobs"], r["error"]});
-  for (const Json& r : report["stability"]) all.push_back({r["case"], r["device"], r["measured"]});
-  return all;
-}
 
 std::vector<std::string> devices_here() {
   std::vector<std::string> devices{"cpu"};

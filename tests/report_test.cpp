@@ -13,6 +13,7 @@
 #include "bench/report/report.h"
 #include "bench/report/schema.h"
 #include "bench/report/stats.h"
+#include "tests/report/errors_of.h"
 #include "tests/support/run.h"
 
 namespace luxel::report {
@@ -247,15 +248,6 @@ std::string test_device_options() {
   std::string options;
   for (const std::string& d : test_devices()) options += " --device " + d;
   return options;
-}
-
-// Every number of a report that is no time.
-Json errors_of(const Json& report) {
-  Json all = Json::array();
-  for (const Json& r : report["frontier"])
-    all.push_back({r["kernel"], r["device"], r["scene"], r["options"], r["knobs"], r["error"]});
-  for (const Json& r : report["stability"]) all.push_back({r["case"], r["device"], r["measured"]});
-  return all;
 }
 
 constexpr const char* few_rows =

@@ -14,6 +14,7 @@
 
 #include "bench/emit/embedded.h"
 #include "bench/emit/kernels.h"
+#include "bench/io/temporary_folder.h"
 #include "commands.h"
 #include "common.h"
 #include "host/module.h"
@@ -83,28 +84,6 @@ std::vector<std::pair<std::string, std::string>> pairs(const std::string& text) 
   return found;
 }
 
-/// A folder of its own for the scripts, gone when this is.
-class Scripts {
- public:
-  Scripts() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "luxel-emit-XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) return;
-    folder_ = pattern;
-    for (const emit::Embedded& file : emit::embedded())
-      if (file.name.ends_with(".py")) std::ofstream(folder_ / file.name) << file.text;
-  }
-  ~Scripts() {
-    std::error_code ignored;
-    if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
-  }
-  Scripts(const Scripts&) = delete;
-  Scripts& operator=(const Scripts&) = delete;
-  const std::filesystem::path& folder() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-};
-
 std::string_view embedded(std::string_view name) {
   for (const emit::Embedded& file : emit::embedded())
     if (file.name == name) return file.text;
@@ -113,17 +92,19 @@ std::string_view embedded(std::string_view name) {
 
 /// Runs the emitter on a request; its last line on stderr is what is wrong.
 int run_script(const json& request, std::string& output, std::string& problem) {
-  const Scripts scripts;
-  if (scripts.folder().empty()) return problem = "cannot write to the temporary directory", -1;
-  std::ofstream(scripts.folder() / "request.json") << request.dump();
-  const std::string at = scripts.folder().string();
+  const io::TemporaryFolder scripts("luxel-emit");
+  const std::string& at = scripts.path();
+  if (at.empty()) return problem = "no folder can be made for temporary files; set TMPDIR to one that can be written", -1;
+  for (const emit::Embedded& file : emit::embedded())
+    if (file.name.ends_with(".py")) std::ofstream(at + "/" + std::string(file.name)) << file.text;
+  std::ofstream(at + "/request.json") << request.dump();
   const std::string command = fmt::format("python3 -B '{0}/emit.py' < '{0}/request.json' 2> '{0}/problem'", at);
   FILE* const pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return problem = "cannot run python3", -1;
   char buffer[4096];
   for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) output.append(buffer, n);
   const int status = pclose(pipe);
-  std::ifstream in(scripts.folder() / "problem");
+  std::ifstream in(at + "/problem");
   for (std::string line; std::getline(in, line);)
     if (!line.empty()) problem = line;
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -1,9 +1,7 @@
-#include <cstdio>
-#include <fstream>
-
 #include <fmt/format.h>
 
 #include "bench/report/json.h"
+#include "bench/report/kept.h"
 #include "bench/report/scene_savings.h"
 #include "bench/scene/scene_plan.h"
 #include "commands.h"
@@ -76,9 +74,8 @@ int run(const Arguments& a) {
     if (savings.empty()) fmt::print("  nothing: the scene has a use for everything that can be left out by a switch\n");
   }
   if (!a.json.empty()) {
-    std::ofstream file(a.json);
-    file << to_json(scene.name, decisions, savings).dump(1) << '\n';
-    if (!file.flush()) return complain(fmt::format("{}: cannot be written", a.json), failed);
+    const std::string text = to_json(scene.name, decisions, savings).dump(1) + "\n";
+    if (Status s = report::write_file(a.json, text); !s) return complain(s);
   }
   return done;
 }

@@ -14,10 +14,7 @@
 namespace luxel::program {
 namespace {
 
-int misuse(const std::string& message) {
-  fmt::print(stderr, "luxel: {}\n", message);
-  return 2;
-}
+int misuse(const std::string& message) { return report::complain(message, 2); }
 
 bool parse_size(const std::string& text, int& width, int& height) {
   const char* end = text.data() + text.size();

@@ -29,6 +29,21 @@ using cases::Run;
 using cases::Values;
 using Works = std::function<Result<bool>(double)>;
 
+// A mesh of one triangle, its vertices rounded on the device.
+Result<Run> voxelized_there(Context& device, VoxelizeParams p, const cases::Mesh& mesh) {
+  p.device_vertices = p.device_materials = true;
+  p.triangles = 1;
+  p.vertices = 3;
+  Result<Run> made = Run::make(device, plan(p, device.profile()));
+  if (!made) return made.status();
+  const std::pair<const char*, Values> inputs[] = {
+      {"positions", mesh.positions}, {"indices", {0, 1, 2}}, {"triangle_materials", {0}}, {"materials", {1, 1, 1, 1, 0, 0, 0, 0}}};
+  for (const auto& [name, values] : inputs)
+    if (Status s = made.value().write(name, values); !s) return s;
+  if (Status s = made.value().go(); !s) return s;
+  return made;
+}
+
 struct Limit {
   const char* kernel;
   const char* family;
@@ -131,16 +146,9 @@ void add_edges(std::vector<Instrument>& all) {
                          const Result<VoxelTriangles> triangles = voxel_triangles(mesh.view(), grid);
                          if (!triangles) return triangles.status();
                          VoxelizeParams p = voxelize_params(grid, triangles.value());
-                         p.device_vertices = p.device_materials = true;
-                         p.triangles = 1, p.vertices = 3;
                          p.origin = grid.origin, p.voxel = grid.voxel;
-                         Result<Run> made = Run::make(device, plan(p, device.profile()));
+                         Result<Run> made = voxelized_there(device, p, mesh);
                          if (!made) return made.status();
-                         if (Status s = made.value().write("positions", mesh.positions); !s) return s;
-                         if (Status s = made.value().write("indices", Values{0, 1, 2}); !s) return s;
-                         if (Status s = made.value().write("triangle_materials", Values{0}); !s) return s;
-                         if (Status s = made.value().write("materials", Values{1, 1, 1, 1, 0, 0, 0, 0}); !s) return s;
-                         if (Status s = made.value().go(); !s) return s;
                          const auto colour = made.value().read("colour");
                          if (!colour) return colour.status();
                          std::size_t inside = 0, others = 0;
@@ -158,15 +166,8 @@ void add_edges(std::vector<Instrument>& all) {
                          const Result<VoxelTriangles> triangles = voxel_triangles(mesh.view(), grid);
                          if (!triangles) return triangles.status();
                          VoxelizeParams p = voxelize_params(grid, triangles.value());
-                         p.device_vertices = p.device_materials = true;
-                         p.triangles = 1, p.vertices = 3;
-                         Result<Run> made = Run::make(device, plan(p, device.profile()));
+                         Result<Run> made = voxelized_there(device, p, mesh);
                          if (!made) return made.status();
-                         if (Status s = made.value().write("positions", mesh.positions); !s) return s;
-                         if (Status s = made.value().write("indices", Values{0, 1, 2}); !s) return s;
-                         if (Status s = made.value().write("triangle_materials", Values{0}); !s) return s;
-                         if (Status s = made.value().write("materials", Values{1, 1, 1, 1, 0, 0, 0, 0}); !s) return s;
-                         if (Status s = made.value().go(); !s) return s;
                          const auto counters = made.value().read("counters");
                          if (!counters) return counters.status();
                          return counters.value()[static_cast<std::size_t>(VoxelizeCount::occupied)] > 0 &&

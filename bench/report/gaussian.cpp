@@ -192,4 +192,35 @@ Result<Session::Timed> timed_blur(Session& session, const BlurSetting& s) {
   return timed(run);
 }
 
+Status beside_peer(Session& session, const BlurSetting& s, const GaussianPeer& peer, Json goal) {
+  const auto own = timed_blur(session, s);
+  if (!own) return own.status();
+  const auto pair = session.interleave(own.value(), peer.run, "peer " + peer.name);
+  if (!pair) return pair.status();
+  const Sample ratio = summarise(ratios(pair.value().b, pair.value().a));
+  const std::vector<double> source = in_format(*s.scene, s.params.format);
+  const auto result = cases::blur(session.context(), s.params, source);
+  if (!result) return result.status();
+  session.row("peers", {{"peer", peer.name},
+                        {"version", peer.version},
+                        {"kernel", "gaussian_blur"},
+                        {"size", size_text(s.params.width, s.params.height)},
+                        {"time_ms", to_json(summarise(pair.value().b))},
+                        {"error", blur_error(s, source, peer.result())},
+                        {"ratio", ratio.median},
+                        {"q1", ratio.q1},
+                        {"q3", ratio.q3},
+                        {"device", session.device()},
+                        {"options",
+                         {{"format", name(s.params.format)},
+                          {"border", "clamp"},
+                          {"sigma", s.params.sigma},
+                          {"variant", cases::name(s.params.variant)},
+                          {"taps", 2 * peer.radius + 1}}},
+                        {"own_ms", to_json(summarise(pair.value().a))},
+                        {"own_error", blur_error(s, source, result.value())},
+                        {"goal", std::move(goal)}});
+  return {};
+}
+
 }  // namespace luxel::report

@@ -1,5 +1,6 @@
 // What the report measures of gaussian_blur.
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,17 @@ Status measure_blur(Session& session, const BlurSetting& setting);
 
 /// Milliseconds of one run of a setting, for pairs in turn. The run is compiled and warm.
 Result<Session::Timed> timed_blur(Session& session, const BlurSetting& setting);
+
+/// Another library's blur of the same image; `run` waits until the result is there.
+struct GaussianPeer {
+  std::string name, version;
+  int radius = 0;  // taps on each side that it takes
+  Session::Timed run;
+  std::function<std::vector<double>()> result;
+};
+
+/// Times a setting and a peer in turn, and makes a row of `peers`.
+Status beside_peer(Session& session, const BlurSetting& setting, const GaussianPeer& peer, Json goal);
 
 /// The error of values against the truth of a setting.
 double blur_error(const BlurSetting& setting, const std::vector<double>& source, const std::vector<double>& values);

@@ -38,14 +38,7 @@ std::vector<double> values_of(const cv::Mat& image) {
   return {data, data + image.total() * image.channels()};
 }
 
-// One of OpenCV's two ways; both wait until the result is there.
-struct Peer {
-  std::string name;
-  Session::Timed run;
-  std::function<std::vector<double>()> result;
-};
-
-Peer on_cpu(const BlurSetting& s, int radius) {
+GaussianPeer on_cpu(const BlurSetting& s, int radius) {
   struct State {
     cv::Mat src, dst;
   };
@@ -53,7 +46,7 @@ Peer on_cpu(const BlurSetting& s, int radius) {
   state->src = matrix(*s.scene, s.params.format);
   const cv::Size size(2 * radius + 1, 2 * radius + 1);
   const double sigma = s.params.sigma;
-  return {fmt::format("OpenCV GaussianBlur, CPU, {} threads", cv::getNumThreads()),
+  return {fmt::format("OpenCV GaussianBlur, CPU, {} threads", cv::getNumThreads()), CV_VERSION, radius,
           [=]() -> Result<double> {
             const auto begin = Clock::now();
             cv::GaussianBlur(state->src, state->dst, size, sigma, sigma, cv::BORDER_REPLICATE);
@@ -62,7 +55,7 @@ Peer on_cpu(const BlurSetting& s, int radius) {
           [=] { return values_of(state->dst); }};
 }
 
-Result<Peer> on_opencl(const BlurSetting& s, int radius, const std::string& device) {
+Result<GaussianPeer> on_opencl(const BlurSetting& s, int radius, const std::string& device) {
   cv::ocl::setUseOpenCL(true);
   if (!cv::ocl::haveOpenCL() || !cv::ocl::useOpenCL())
     return Status(Code::unsupported, "OpenCV's OpenCL path finds no device here (OPENCV_OPENCL_DEVICE chooses one)");
@@ -76,7 +69,7 @@ Result<Peer> on_opencl(const BlurSetting& s, int radius, const std::string& devi
   matrix(*s.scene, s.params.format).copyTo(state->src);
   const cv::Size size(2 * radius + 1, 2 * radius + 1);
   const double sigma = s.params.sigma;
-  return Peer{"OpenCV GaussianBlur, OpenCL path on this device",
+  return GaussianPeer{"OpenCV GaussianBlur, OpenCL path on this device", CV_VERSION, radius,
               [=]() -> Result<double> {
                 const auto begin = Clock::now();
                 cv::GaussianBlur(state->src, state->dst, size, sigma, sigma, cv::BORDER_REPLICATE);
@@ -84,39 +77,6 @@ Result<Peer> on_opencl(const BlurSetting& s, int radius, const std::string& devi
                 return ms_since(begin);
               },
               [=] { return values_of(state->dst.getMat(cv::ACCESS_READ)); }};
-}
-
-Status beside(Session& session, const BlurSetting& s, int radius, const Result<Peer>& made, Json goal) {
-  if (!made) return made.status();
-  const Peer& peer = made.value();
-  const auto own = timed_blur(session, s);
-  if (!own) return own.status();
-  const auto pair = session.interleave(own.value(), peer.run, "peer " + peer.name);
-  if (!pair) return pair.status();
-  const Sample ratio = summarise(ratios(pair.value().b, pair.value().a));
-  const std::vector<double> source = in_format(*s.scene, s.params.format);
-  const auto result = cases::blur(session.context(), s.params, source);
-  if (!result) return result.status();
-  session.row("peers", {{"peer", peer.name},
-                        {"version", CV_VERSION},
-                        {"kernel", "gaussian_blur"},
-                        {"size", size_text(s.params.width, s.params.height)},
-                        {"time_ms", to_json(summarise(pair.value().b))},
-                        {"error", blur_error(s, source, peer.result())},
-                        {"ratio", ratio.median},
-                        {"q1", ratio.q1},
-                        {"q3", ratio.q3},
-                        {"device", session.device()},
-                        {"options",
-                         {{"format", name(s.params.format)},
-                          {"border", "clamp"},
-                          {"sigma", s.params.sigma},
-                          {"variant", cases::name(s.params.variant)},
-                          {"taps", 2 * radius + 1}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
-                        {"own_error", blur_error(s, source, result.value())},
-                        {"goal", std::move(goal)}});
-  return {};
 }
 
 // OpenCV reports by exceptions.
@@ -144,14 +104,14 @@ std::vector<Job> gaussian_peers(Session& session) {
     if (software && format == Format::f32x1 && opencl) goal = 1.5;
     jobs.push_back({fmt::format("gaussian_blur peer OpenCV CPU {}", name(format)), [&session, s, goal] {
                       return caught(
-                          [&] { return beside(session, s, s.params.radius, on_cpu(s, s.params.radius), goal); });
+                          [&] { return beside_peer(session, s, on_cpu(s, s.params.radius), goal); });
                     }});
     if (!opencl) continue;
     goal = software && format == Format::f32x4 ? Json(4.0) : Json();
     jobs.push_back({fmt::format("gaussian_blur peer OpenCV OpenCL {}", name(format)), [&session, s, goal] {
                       return caught([&] {
-                        return beside(session, s, s.params.radius, on_opencl(s, s.params.radius, session.device()),
-                                      goal);
+                        const auto peer = on_opencl(s, s.params.radius, session.device());
+                        return peer ? beside_peer(session, s, peer.value(), goal) : peer.status();
                       });
                     }});
   }
@@ -162,7 +122,7 @@ std::vector<Job> gaussian_peers(Session& session) {
     s.params.levels = -1;
     const Json goal = software && opencl && variant == GaussianVariant::pyramid ? Json(4.0) : Json();
     jobs.push_back({fmt::format("gaussian_blur {} peer OpenCV CPU 85 taps", cases::name(variant)), [&session, s, goal] {
-                      return caught([&] { return beside(session, s, taps_85, on_cpu(s, taps_85), goal); });
+                      return caught([&] { return beside_peer(session, s, on_cpu(s, taps_85), goal); });
                     }});
   }
   return jobs;

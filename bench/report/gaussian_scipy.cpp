@@ -1,19 +1,15 @@
 // scipy's gaussian_filter beside ours: the same image, the same taps, in turn. Each of its runs is a process that warms up first.
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 #include <fmt/format.h>
 
+#include "bench/io/temporary_folder.h"
 #include "bench/report/child.h"
 #include "bench/report/gaussian.h"
-#include "tests/cases/gaussian_blur_support.h"
 
 namespace luxel::report {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Arguments: folder, height, width, sigma, radius. Writes "milliseconds version" to descriptor 3, and the result to the folder.
 constexpr const char* script = R"(
@@ -36,31 +32,20 @@ out.tofile(folder + "/dst")
 os.write(3, f"{took} {scipy.__version__}\n".encode())
 )";
 
-struct Folder {
-  std::string path;
-  Folder() {
-    path = (fs::temp_directory_path() / "luxel-scipy-XXXXXX").string();
-    if (mkdtemp(path.data()) == nullptr) path.clear();
-  }
-  ~Folder() {
-    std::error_code ignored;
-    if (!path.empty()) fs::remove_all(path, ignored);
-  }
-};
-
 Status beside(Session& session, const BlurSetting& s) {
-  const Folder folder;
-  if (folder.path.empty()) return Status(Code::io, "no temporary folder can be made");
+  const io::TemporaryFolder made("luxel-scipy");
+  const std::string& folder = made.path();
+  if (folder.empty()) return Status(Code::io, "no temporary folder can be made");
   const std::vector<double> source = in_format(*s.scene, s.params.format);
   const std::vector<float> floats(source.begin(), source.end());
-  std::ofstream(folder.path + "/src", std::ios::binary)
+  std::ofstream(folder + "/src", std::ios::binary)
       .write(reinterpret_cast<const char*>(floats.data()), static_cast<std::streamsize>(floats.size() * sizeof(float)));
   std::string version;
   const Session::Timed theirs = [&]() -> Result<double> {
     double ms = 0;
-    const Ended ended = run_child({"/usr/bin/env", "python3", "-c", script, folder.path, std::to_string(s.params.height),
+    const Ended ended = run_child({"/usr/bin/env", "python3", "-c", script, folder, std::to_string(s.params.height),
                                    std::to_string(s.params.width), fmt::format("{}", s.params.sigma), std::to_string(s.params.radius)},
-                                  {}, folder.path + "/log", 120, [&](const std::string& line) {
+                                  {}, folder + "/log", 120, [&](const std::string& line) {
                                     const std::size_t space = line.find(' ');
                                     ms = std::strtod(line.c_str(), nullptr);
                                     version = line.substr(space + 1);
@@ -72,36 +57,15 @@ Status beside(Session& session, const BlurSetting& s) {
   };
   const auto first = theirs();
   if (!first) return first.status();
-  const auto own = timed_blur(session, s);
-  if (!own) return own.status();
-  const auto pair = session.interleave(own.value(), theirs, "peer scipy");
-  if (!pair) return pair.status();
-  std::vector<float> made(floats.size());
-  std::ifstream(folder.path + "/dst", std::ios::binary)
-      .read(reinterpret_cast<char*>(made.data()), static_cast<std::streamsize>(made.size() * sizeof(float)));
-  const auto result = cases::blur(session.context(), s.params, source);
-  if (!result) return result.status();
-  const Sample ratio = summarise(ratios(pair.value().b, pair.value().a));
-  session.row("peers", {{"peer", "scipy gaussian_filter, one thread"},
-                        {"version", version},
-                        {"kernel", "gaussian_blur"},
-                        {"size", size_text(s.params.width, s.params.height)},
-                        {"time_ms", to_json(summarise(pair.value().b))},
-                        {"error", blur_error(s, source, {made.begin(), made.end()})},
-                        {"ratio", ratio.median},
-                        {"q1", ratio.q1},
-                        {"q3", ratio.q3},
-                        {"device", session.device()},
-                        {"options",
-                         {{"format", name(s.params.format)},
-                          {"border", "clamp"},
-                          {"sigma", s.params.sigma},
-                          {"variant", cases::name(s.params.variant)},
-                          {"taps", 2 * s.params.radius + 1}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
-                        {"own_error", blur_error(s, source, result.value())},
-                        {"goal", nullptr}});
-  return {};
+  return beside_peer(session, s,
+                     {"scipy gaussian_filter, one thread", version, s.params.radius, theirs,
+                      [&] {
+                        std::vector<float> result(floats.size());
+                        std::ifstream(folder + "/dst", std::ios::binary)
+                            .read(reinterpret_cast<char*>(result.data()), static_cast<std::streamsize>(result.size() * sizeof(float)));
+                        return std::vector<double>(result.begin(), result.end());
+                      }},
+                     nullptr);
 }
 
 }  // namespace

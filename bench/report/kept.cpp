@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/report/scenes.h"
+#include "host/files.h"
 #include "host/module.h"
 
 namespace luxel::report {
@@ -80,13 +81,8 @@ bool unchanged(const Json& modules) {
 }
 
 Status write_file(const std::string& path, const std::string& text) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file) std::filesystem::rename(part, path, error);
-  if (!file || error) return {Code::io, path + " could not be written; check the folder and the space on its disk"};
+  if (!write_file_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}))
+    return {Code::io, path + " could not be written; check the folder and the space on its disk"};
   return {};
 }
 

@@ -28,10 +28,7 @@ namespace fs = std::filesystem;
 // A device that says nothing for so long hangs; compiling and the slowest single row take less.
 constexpr int silence_s = 300;
 
-int misuse(const std::string& message) {
-  fmt::print(stderr, "luxel: {}\n", message);
-  return 2;
-}
+int misuse(const std::string& message) { return complain(message, 2); }
 
 std::string this_program() { return fs::read_symlink("/proc/self/exe").string(); }
 
@@ -169,6 +166,11 @@ int say_interrupted(const Settings& settings, const Gathered& gathered, const st
 }
 
 }  // namespace
+
+int complain(const std::string& message, int status) {
+  fmt::print(stderr, "luxel: {}\n", message);
+  return status;
+}
 
 int run_report(const Settings& settings) {
   for (const std::string& kernel : settings.kernels)

@@ -17,6 +17,9 @@ namespace luxel::report {
 /// line on stderr), 130 (interrupted: what was finished is kept).
 int run_report(const Settings& settings);
 
+/// Prints "luxel: message" on stderr and returns `status`.
+int complain(const std::string& message, int status);
+
 /// The devices that `names` mean (as Context::open takes them), each once; all but the execution in double where
 /// `names` is empty. Names of APIs that died are left out. Errors: missing_driver for a name that no device has;
 /// invalid_argument for the execution in double, which is what every row is compared with.

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/io/temporary_folder.h"
 #include "bench/report/child.h"
 #include "bench/report/grid.h"
 #include "bench/report/profile_file.h"
@@ -22,30 +23,6 @@ namespace luxel::report {
 namespace {
 
 namespace fs = std::filesystem;
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "luxel: {}\n", message);
-  return status;
-}
-
-// The folder that sessions share oracles through, gone at the end.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "luxel-tune-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 // What a session sends, read back from memory.
 class Sent {
@@ -151,7 +128,7 @@ Answer answer_of(const TuneRequest& r, const std::vector<Choice>& choices) {
 int run_tune(const TuneRequest& request) {
   TuneRequest r = request;
   const std::string kernel = r.settings.kernels.front();
-  const Folder folder;
+  const io::TemporaryFolder folder("luxel-tune");
   if (folder.path().empty()) return complain("no folder can be made for temporary files; set TMPDIR to one that can be written", 1);
   r.settings.out = folder.path();
   const auto opened = open_tuned(r.settings.devices.empty() ? "" : r.settings.devices.front());

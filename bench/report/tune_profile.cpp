@@ -13,6 +13,7 @@
 #include "bench/report/child.h"
 #include "bench/report/kept.h"
 #include "bench/report/profile_file.h"
+#include "bench/report/report.h"
 #include "bench/report/session.h"
 #include "bench/report/stats.h"
 #include "bench/scene/images.h"
@@ -138,11 +139,6 @@ class Search {
   Profile best_;
   int tried_ = 0;
 };
-
-int complain(const std::string& message, int status) {
-  fmt::print(stderr, "luxel: {}\n", message);
-  return status;
-}
 
 }  // namespace
 

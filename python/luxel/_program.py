@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 
 from . import _luxel
 
@@ -28,7 +29,6 @@ def call(arguments, progress=None):
     with subprocess.Popen([program(), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, bufsize=1) as child:
         last = ""
         with tempfile.TemporaryFile("w+") as printed:
-            import threading
             reader = threading.Thread(target=lambda: [printed.write(line) for line in child.stdout])
             reader.start()
             try:
