@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <glm/glm.hpp>
 
 #include "bench/scene/images.h"
 #include "bench/truth/ssr_lobe.h"
@@ -185,6 +186,66 @@ Case density_case(double roughness) {
           }};
 }
 
+// Radiance of pixels from the rays around them, worked out anew from what the rays found: each weighted by D G2 / (4 (n v) pdf).
+Case resolve_case() {
+  return {"", "radiance of rays drawn from lobes, by its definition",
+          "what the rays around a pixel saw, weighted by its lobe over the density that each was drawn with (largest difference)", 1e-4,
+          [](Context& context) -> Result<double> {
+            HizSsrParams p = shaded(SsrVariant::stochastic);
+            p.prefilter = 0;
+            p.reuse = 1;
+            p.environment = {3, 2, 1};
+            const Values source = lobes(1, 96), colour = noise(97), depth = height_field(width, height, 98);
+            const auto r = follow(context, p, depth, source, {colour, {}, {}, {}});
+            if (!r) return r.status();
+            const SsrResult& got = r.value();
+            using glm::dvec3;
+            const auto sight = [&](double x, double y) { return dvec3((x - p.centre_x) / p.focal_x, (p.centre_y - y) / p.focal_y, -1); };
+            double most = 0, compared = 0;
+            for (int y = 0; y < height; ++y)
+              for (int x = 0; x < width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+                const double roughness = source[4 * i + 3], alpha = roughness * roughness;
+                if (roughness < 0.35 || !std::isfinite(depth[i])) continue;  // narrower lobes lose digits of f32
+                const dvec3 n = glm::normalize(dvec3(source[4 * i], source[4 * i + 1], source[4 * i + 2])), eye = sight(x + 0.5, y + 0.5);
+                const dvec3 v = -glm::normalize(eye), place = depth[i] * eye;
+                const double n_v = glm::dot(n, v);
+                if (n_v < 0.05) continue;
+                const auto lambda = [&](double c) { return (std::sqrt(1 + alpha * alpha * (1 / (c * c) - 1)) - 1) / 2; };
+                dvec3 sum(0);
+                double weights = 0, known = 0;
+                for (int b = std::max(y - 1, 0); b <= std::min(y + 1, height - 1); ++b)
+                  for (int a = std::max(x - 1, 0); a <= std::min(x + 1, width - 1); ++a)
+                    for (int k = 0; k < p.rays_per_pixel; ++k) {
+                      const std::size_t ray = static_cast<std::size_t>((k * height + b) * width + a);
+                      const SsrOutcome outcome = got.outcome(ray);
+                      if (outcome < SsrOutcome::hit || outcome > SsrOutcome::capped) continue;
+                      const double *hit = &got.hits[4 * ray], *drawn = &got.directions[4 * ray];
+                      dvec3 l(drawn[0], drawn[1], drawn[2]);
+                      if (outcome == SsrOutcome::hit) l = glm::normalize(hit[2] * sight(hit[0] * width, hit[1] * height) - place);
+                      const double n_l = glm::dot(n, l);
+                      if (!(n_l > 0)) continue;
+                      const double cosine = glm::dot(n, glm::normalize(v + l)), q = cosine * cosine * (alpha * alpha - 1) + 1;
+                      const double density = alpha * alpha / (3.14159265358979 * q * q);
+                      const double weight = density / (1 + lambda(n_v) + lambda(n_l)) / (4 * n_v * drawn[3]);
+                      weights += weight;
+                      if (outcome != SsrOutcome::hit) continue;
+                      const std::size_t at = static_cast<std::size_t>(hit[1] * height) * width + static_cast<std::size_t>(hit[0] * width);
+                      sum += weight * hit[3] * dvec3(colour[4 * at], colour[4 * at + 1], colour[4 * at + 2]);
+                      known += weight * hit[3];
+                    }
+                if (!(known > 0)) continue;
+                ++compared;
+                for (int c = 0; c < 3; ++c) {
+                  const double expected = sum[c] / weights + (1 - known / weights) * p.environment[static_cast<std::size_t>(c)];
+                  const double off = std::fabs(got.radiance[4 * i + static_cast<std::size_t>(c)] - expected);
+                  if (!(off <= most)) most = off;
+                }
+              }
+            return compared > 500 ? most : std::numeric_limits<double>::quiet_NaN();
+          }};
+}
+
 }  // namespace
 
 void add_ssr_shade_cases(std::vector<Case>& cases) {
@@ -193,6 +254,7 @@ void add_ssr_shade_cases(std::vector<Case>& cases) {
   cases.push_back(furnace_case(shaded(SsrVariant::stochastic, true), "stochastic at half resolution"));
   cases.push_back(tiles_case());
   cases.push_back(colour_case());
+  cases.push_back(resolve_case());
   cases.push_back(hostile_case(SsrVariant::dda, "mirror rays"));
   cases.push_back(hostile_case(SsrVariant::stochastic, "stochastic"));
   cases.push_back(table_case());
