@@ -108,6 +108,30 @@ void add_truths(std::vector<Case>& cases) {
                        }
                        return most;
                      }});
+  cases.push_back({kernel, "sample, glossy, the same light of all axes everywhere",
+                   "the light that goes against the mirror direction: c0 Y0 + Y1 (c1 y + c2 z + c3 x) (error over the largest)", float_bound,
+                   [](Context& context) -> Result<double> {
+                     LpvSampleParams p = params_of(grid_of(6, 6, 6));
+                     p.channels = 1;
+                     p.glossy_steps = 2;
+                     constexpr double c[] = {4, 0.7, -1.1, 1.9};
+                     Values light(lpv_sample_offset(p, 1) * 4, 0.0);
+                     for (std::size_t i = 0; i < light.size(); ++i) light[i] = c[i % 4];
+                     const Values receivers = random_receivers(500, 2, 4, 11);
+                     Values views;
+                     for (std::uint32_t i = 0; i < 500; ++i)
+                       for (const double v : {direction(8000 + i)[0], direction(8000 + i)[1], direction(8000 + i)[2], 0.0}) views.push_back(v);
+                     const auto r = sampled(context, p, light, receivers, views);
+                     if (!r) return r.status();
+                     Values found, expected;
+                     for (std::size_t i = 0; i < 500; ++i) {
+                       const double *n = &receivers[8 * i + 4], *v = &views[4 * i], n_v = n[0] * v[0] + n[1] * v[1] + n[2] * v[2];
+                       const auto against = [&](std::size_t k) { return v[k] - 2 * n_v * n[k]; };
+                       found.push_back(r.value().specular[4 * i]);
+                       expected.push_back(std::max(0.0, c[0] / std::sqrt(4 * pi) + std::sqrt(3 / (4 * pi)) * (c[1] * against(1) + c[2] * against(2) + c[3] * against(0))));
+                     }
+                     return relative_error(found, expected);
+                   }});
   cases.push_back({kernel, "sample, radiance linear along x, half a cell above", "linear, the outermost centre's beyond (largest relative error)", float_bound,
                    [](Context& context) -> Result<double> {
                      LpvSampleParams p = params_of(grid_of(8, 2, 2));
