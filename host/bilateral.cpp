@@ -97,6 +97,10 @@ Status validate(const BilateralParams& p) {
   LUXEL_CHECK(check_range("BilateralParams.variance_target", p.variance_target, 0.0, 1e30));
   if (p.variance_target > 0 && !p.luminance)
     return out_of_range("BilateralParams.variance_target", p.variance_target, "0 without luminance");
+  LUXEL_CHECK(check_range("BilateralParams.flat", p.flat, 0.0, 0.5));
+  if (p.flat > 0 && (p.variant != BilateralVariant::direct || p.window != FilterWindow::square || p.step != 1 ||
+                     p.depth == DepthTerm::svgf))
+    return out_of_range("BilateralParams.flat", p.flat, "0 but for variant direct, a square window, step 1, depth off or plane");
   if (p.carry_variance && !(atrous && p.luminance))
     return out_of_range("BilateralParams.carry_variance", "true", "false but for variant atrous with luminance");
   LUXEL_CHECK(check_range("BilateralParams.border", static_cast<int>(p.border), 0, 3));
@@ -128,18 +132,24 @@ class Builder {
 
   Result<Plan> build() {
     layout();
+    images();
+    count_all();
+    if (!packs() || flat()) prepare();
+    if (flat()) flatten();
     if (packs()) {
       packed();
-      return std::move(planner_).finish();
-    }
-    resources();
-    prepare();
-    if (p_.variant == BilateralVariant::atrous) {
+    } else if (p_.variant == BilateralVariant::atrous) {
       atrous();
     } else if (p_.variant == BilateralVariant::separable) {
       separable();
     } else {
-      filter({.columns = taps_, .rows = taps_, .step = p_.step, .reach = reach(), .from = colours_, .table = window()});
+      filter({.columns = taps_,
+              .rows = taps_,
+              .step = p_.step,
+              .reach = reach(),
+              .from = colours_,
+              .table = window(),
+              .flat = flat() ? 1 : 0});
     }
     return std::move(planner_).finish();
   }
@@ -156,7 +166,11 @@ class Builder {
     bool carry = false;
     Slot carried = {};  // where the variance of the result goes: rows `carried_stride` apart, from element `carried_at`
     int carried_stride = 0, carried_at = 0;
+    int flat = 0;        // FLAT of the kernel
+    bool space = false;  // no other term
   };
+
+  bool flat() const { return p_.flat > 0 && taps_ > 0; }
 
   // Taps with i^2 + j^2 of at most this count.
   int reach() const {
@@ -209,7 +223,6 @@ class Builder {
   }
 
   void packed() {
-    images();
     const auto texels = [&] {
       return planner_.scratch(Format::f32x4, static_cast<std::size_t>(p_.height) * pitch_);
     };
@@ -225,7 +238,6 @@ class Builder {
                     {{"src", image}, {"colours", guide ? colours : image}, {"packed", to}});
       planner_.cost(0, static_cast<double>(p_.width) * p_.height * (bytes_per_pixel(format) + (guide ? 32 : 16)));
     };
-    count_all();
     pack("bilateral pack", src_, p_.format, src_stride_, false, colours);
     if (range_ == RangeTerm::guide) pack("bilateral guide", guide_, p_.guide_format, p_.width, true, guides);
     constexpr int across = 2, down = 4;  // more take longer to compile than they save
@@ -244,9 +256,15 @@ class Builder {
                    {"COLOURS", colour_count_},
                    {"RANGE", static_cast<int>(range_)},
                    {"L1", p_.range_norm == RangeNorm::l1},
+                   {"FLAT", flat()},
                    {"ACROSS", across},
                    {"DOWN", down}},
-                  {{"colours", colours}, {"guides", guides}, {"src", src_}, {"dst", dst_}, {"spatial", window()}});
+                  {{"colours", colours},
+                   {"guides", guides},
+                   {"src", src_},
+                   {"dst", dst_},
+                   {"spatial", window()},
+                   {"flats", flat() ? flats_ : colours}});
     planner_.cost((2.0 * taps_ + 1) * (2.0 * taps_ + 1) * (27 + 3 * colour_count_) * p_.width * p_.height,
                   static_cast<double>(p_.width) * p_.height *
                       (2 * bytes_per_pixel(p_.format) + (range_ == RangeTerm::guide ? 32.0 : 16.0)));
@@ -288,12 +306,6 @@ class Builder {
       counters.written = true;
       counters_ = planner_.resource(counters);
     }
-  }
-
-  void resources() {
-    images();
-    colours_ = planes(colour_count_);
-    guides_ = guide_planes_ > 0 ? planes(guide_planes_) : colours_;
   }
 
   std::array<std::uint32_t, 3> over(int width, int height) const {
@@ -340,7 +352,8 @@ class Builder {
   }
 
   void prepare() {
-    count_all();
+    colours_ = planes(colour_count_);
+    guides_ = guide_planes_ > 0 ? planes(guide_planes_) : colours_;
     split("bilateral split", src_, p_.format, src_stride_, colour_count_, colours_, 0, taps_ > 0);
     if (range_ == RangeTerm::guide)
       split("bilateral guide", guide_, p_.guide_format, p_.width, guide_count_, guides_, guide_plane_, 0);
@@ -408,7 +421,61 @@ class Builder {
     return planner_.table(exponents, exponents);
   }
 
+  // Finds the tiles without edges, and filters them.
+  void flatten() {
+    const int rows = (p_.height + 15) / 16, columns = (p_.width + 15) / 16;
+    const int colours = range_ == RangeTerm::guide ? guide_count_ : range_ == RangeTerm::self ? colour_count_ : 0;
+    const bool plane = depth_ != DepthTerm::off;
+    const int bias = colours, depth = bias + (bias_ ? 1 : 0), normal = depth + (plane ? 3 : 0),
+              luminance = normal + (normal_ ? 4 : 0), all = luminance + (luminance_ ? 2 : 0);
+    const Slot ranges = planner_.scratch(Format::f32x1, static_cast<std::size_t>(all) * rows * 2 * p_.width);
+    flats_ = planner_.scratch(Format::u32, static_cast<std::size_t>(columns) * rows);
+    const auto range = [&](int count, Slot planes, int plane, int kind, int first) {
+      if (count == 0) return;
+      planner_.pass("bilateral_range", "f32x1", "bilateral range",
+                    {static_cast<std::uint32_t>(p_.width), static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(count)},
+                    workgroup_,
+                    {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"plane", plane}, {"first", first}},
+                    {{"KIND", kind}}, {{"planes", planes}, {"ranges", ranges}});
+      planner_.cost(3.0 * count * p_.width * p_.height, 4.5 * count * p_.width * p_.height);
+    };
+    range(colours, range_ == RangeTerm::guide ? guides_ : colours_, range_ == RangeTerm::guide ? guide_plane_ : 0, 0, 0);
+    range(bias_ ? 1 : 0, guides_, bias_plane_, 0, bias);
+    range(plane ? 3 : 0, guides_, depth_plane_, 1, depth);
+    range(normal_ ? 4 : 0, guides_, normal_plane_, 2, normal);
+    range(luminance_ ? 2 : 0, guides_, luminance_plane_, 0, luminance);
+    planner_.pass("bilateral_flat", "f32x1", "bilateral flat", over(columns, rows), {16, 1, 1},
+                  {{"width", p_.width},
+                   {"height", p_.height},
+                   {"reach", taps_},
+                   {"colour", 0},
+                   {"bias", bias},
+                   {"depth", depth},
+                   {"normal", normal},
+                   {"luminance", luminance},
+                   {"limit", -std::log2(1 - p_.flat)},
+                   {"range_factor", range_factor()},
+                   {"normal_power", p_.sigma_normal},
+                   {"depth_scale", depth_scale()}},
+                  {{"COLOURS", colours},
+                   {"L1", p_.range_norm == RangeNorm::l1},
+                   {"BIAS", bias_},
+                   {"DEPTH", plane},
+                   {"NORMAL", normal_},
+                   {"LUMINANCE", luminance_},
+                   {"INSIDE", plane || p_.border == Border::wrap || p_.border == Border::zero}},
+                  {{"ranges", ranges}, {"flats", flats_}});
+    const Slot between = planes(colour_count_), table = window();
+    filter({.columns = taps_, .rows = 0, .step = 1, .reach = taps_ * taps_, .from = colours_, .table = table, .last = false,
+            .to = between, .flat = 2, .space = true});
+    filter({.columns = 0, .rows = taps_, .step = 1, .reach = taps_ * taps_, .from = between, .table = table, .flat = 3,
+            .space = true});
+  }
+
+  double depth_scale() const { return p_.depth == DepthTerm::plane ? p_.sigma_depth * p_.footprint : p_.sigma_depth; }
+
   void filter(const Filter& f) {
+    const bool terms = !f.space;
     const Shape& shape = profile_.pixels;
     const int lanes = std::max(shape.lanes, 1);
     // Rows of results share their loads, where loads are what takes the time.
@@ -432,22 +499,24 @@ class Builder {
                    {"carried_at", f.carried_at},
                    {"range_factor", range_factor()},
                    {"normal_power", p_.sigma_normal},
-                   {"depth_scale", p_.depth == DepthTerm::plane ? p_.sigma_depth * p_.footprint : p_.sigma_depth}},
+                   {"depth_scale", depth_scale()},
+                   {"reach", taps_}},
                   {{"COLUMNS", f.columns},
                    {"ROWS", f.rows},
                    {"REACH", f.reach},
                    {"STEP", f.step},
                    {"BORDER", static_cast<int>(p_.border)},
                    {"COLOURS", colour_count_},
-                   {"RANGE", static_cast<int>(range_)},
-                   {"GUIDES", guide_count_},
+                   {"RANGE", terms ? static_cast<int>(range_) : 0},
+                   {"GUIDES", terms ? guide_count_ : 0},
                    {"L1", p_.range_norm == RangeNorm::l1},
-                   {"BIAS", bias_},
-                   {"DEPTH", static_cast<int>(depth_)},
-                   {"NORMAL", normal_},
-                   {"LUMINANCE", luminance_},
+                   {"BIAS", terms && bias_},
+                   {"DEPTH", terms ? static_cast<int>(depth_) : 0},
+                   {"NORMAL", terms && normal_},
+                   {"LUMINANCE", terms && luminance_},
                    {"CARRY", f.carry},
                    {"ADAPTIVE", f.adaptive},
+                   {"FLAT", f.flat},
                    {"LANES", lanes},
                    {"BLOCK", block}},
                   {{"planes", f.from},
@@ -455,13 +524,14 @@ class Builder {
                    {"src", f.last ? src_ : f.from},
                    {"dst", f.last ? dst_ : f.to},
                    {"variances", f.carry ? f.carried : guides_},
-                   {"spatial", f.table}});
+                   {"spatial", f.table},
+                   {"flats", f.flat ? flats_ : f.from}});
     const double taps = (2.0 * f.columns + 1) * (2.0 * f.rows + 1);
-    const double terms = 18 + 3 * colour_count_ +
+    const double operations = f.space ? 18 + 3 * colour_count_ : 18 + 3 * colour_count_ +
                          (range_ == RangeTerm::off ? 0 : 3 * std::max(guide_count_, colour_count_)) +
                          (depth_ == DepthTerm::off ? 0 : 12) + (normal_ ? 25 : 0) + (luminance_ ? 4 : 0);
     planner_.cost(
-        taps * terms * p_.width * p_.height,
+        taps * operations * p_.width * p_.height,
         (4.0 * (colour_count_ + guide_planes_) + (f.last ? 2.0 * bytes_per_pixel(p_.format) : 4.0 * colour_count_)) *
             p_.width * p_.height);
   }
@@ -533,7 +603,7 @@ class Builder {
   int bias_plane_ = 0, guide_plane_ = 0, depth_plane_ = 0, normal_plane_ = 0, luminance_plane_ = 0, variance_plane_ = 0,
       guide_planes_ = 0;
   std::array<std::uint32_t, 3> workgroup_{64, 1, 1};
-  Slot src_, dst_, guide_, z_, normals_, variance_, variance_out_, counters_, colours_, guides_;
+  Slot src_, dst_, guide_, z_, normals_, variance_, variance_out_, counters_, colours_, guides_, flats_;
 };
 
 }  // namespace

@@ -107,7 +107,7 @@ Kernel bilateral() {
                  {F(width), F(height), F(src_stride), F(dst_stride), F(variant), F(sigma_space), F(radius), F(step), F(window),
                   F(adaptive), F(low), F(high), F(levels), F(taps), F(range), F(sigma_range), F(range_norm), F(guide_format),
                   F(depth), F(sigma_depth), F(footprint), F(normal), F(sigma_normal), F(normal_format), F(luminance),
-                  F(sigma_luminance), F(epsilon), F(variance_target), F(carry_variance), F(border), F(format), F(alpha),
+                  F(sigma_luminance), F(epsilon), F(variance_target), F(carry_variance), F(flat), F(border), F(format), F(alpha),
                   F(count)},
                  [](P& q) { if (q.variant == BilateralVariant::discontinuity) q.range = RangeTerm::off; });
 }

@@ -19,7 +19,7 @@ struct Arguments {
   std::string in, out, guide, depth, normal, variance, device;
   std::string variant, range, range_norm, window, taps, depth_term, border, format;
   double sigma_space = 3, sigma_range = 0.1, sigma_depth = 1, footprint = 0.001, sigma_normal = 128,
-         sigma_luminance = 4, variance_target = 0;
+         sigma_luminance = 4, variance_target = 0, flat = 0;
   double low = 0, high = 1, depth_threshold = 0.02, normal_threshold = 0.9;
   int radius = -1, step = 1, levels = 5;
   bool adaptive = false, alpha = false;
@@ -73,6 +73,7 @@ BilateralParams parameters(const Arguments& a, const io::Image& image) {
   p.luminance = !a.variance.empty();
   p.sigma_luminance = a.sigma_luminance;
   p.variance_target = a.variance_target;
+  p.flat = a.flat;
   p.border = a.border == "clamp"    ? Border::clamp
              : a.border == "mirror" ? Border::mirror
              : a.border == "wrap"   ? Border::wrap
@@ -205,6 +206,7 @@ void add_bilateral(CLI::App& app, int& exit_status) {
                                     {"--sigma-normal", &a->sigma_normal},
                                     {"--sigma-luminance", &a->sigma_luminance},
                                     {"--variance-target", &a->variance_target},
+                                    {"--flat", &a->flat},
                                     {"--low", &a->low},
                                     {"--high", &a->high},
                                     {"--depth-threshold", &a->depth_threshold},

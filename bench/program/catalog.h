@@ -98,6 +98,7 @@ inline const std::vector<Kernel>& catalog() {
         {"--sigma-normal", 0.01, 4096, false, "128", "", "power of the cosine between normals"},
         {"--sigma-luminance", 1e-6, 1e6, false, "4", "standard deviations", "with --variance"},
         {"--variance-target", 0, 1e30, false, "0", "luminance squared", "with --variance: pixels below it stay as they are"},
+        {"--flat", 0, 0.5, false, "0", "part of a weight", "direct: tiles whose weights are surely 1 less this are blurred by space alone"},
         {"--low", -1e30, 1e30, false, "0", "luminance", "grid: of the first cell; what is below counts as there"},
         {"--high", -1e30, 1e30, false, "1", "luminance", "grid: of the last cell"},
         {"--depth-threshold", 0, 1, false, "0.02", "parts of depth", "discontinuity: off both sides' planes, an edge"},

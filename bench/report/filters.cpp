@@ -207,6 +207,40 @@ std::vector<Job> filter_left_out(Session& session) {
                                              {"device", session.device()}});
                     return {};
                   }});
+  // Tiles without edges are blurred by rows and columns.
+  jobs.push_back({"bilateral left out flat tiles", [&session]() -> Status {
+                    BilateralParams p = cases::bilateral_params(512, 512, "dn");
+                    const cases::BilateralImages images = cases::bilateral_images(p, 1);
+                    std::vector<std::shared_ptr<Run>> runs;
+                    for (const double flat : {0.0, 0.05}) {
+                      p.flat = flat;
+                      Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
+                      if (!made) return made.status();
+                      if (Status s = write_inputs(made.value(), {{"src", &images.src},
+                                                                 {"depth", &images.depth},
+                                                                 {"normals", &images.normals}});
+                          !s)
+                        return s;
+                      runs.push_back(std::make_shared<Run>(std::move(made).value()));
+                    }
+                    const auto pair = session.interleave(timed(runs[0]), timed(runs[1]), "left out: flat tiles");
+                    if (!pair) return pair.status();
+                    std::vector<double> saved;
+                    for (std::size_t i = 0; i < pair.value().a.size(); ++i)
+                      saved.push_back(pair.value().a[i] - pair.value().b[i]);
+                    const auto all = runs[0]->read("dst"), some = runs[1]->read("dst");
+                    if (!all) return all.status();
+                    if (!some) return some.status();
+                    session.row("left_out", {{"kernel", "bilateral"},
+                                             {"scene", "a floor, a wall and a box 512x512"},
+                                             {"what", "tiles without edges in depth and normals (flat 0.05) are blurred by space alone"},
+                                             {"level", 3},
+                                             {"saved_ms", summarise(saved).median},
+                                             {"saved_bytes", 0},
+                                             {"error", cases::max_difference(all.value(), some.value())},
+                                             {"device", session.device()}});
+                    return {};
+                  }});
   return jobs;
 }
 

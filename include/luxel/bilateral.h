@@ -63,6 +63,10 @@ struct BilateralParams {
 
   Border border = Border::clamp;
   Format format = Format::f32x4;  // of src and dst: f32x1, f32x2, f32x4, f16x4, unorm8x4
+  double flat = 0;                // direct: tiles of 16 x 16 pixels all of whose weights but the one of space are surely 1 - flat
+                                  // or more get that one alone, by rows and columns, at the cost of a Gaussian; the result
+                                  // differs by at most a quarter of flat (1 + flat) of what colours differ by within a window.
+                                  // Square window, step 1, depth off or plane; 0..0.5, 0: none
   bool alpha = false;             // x4: the fourth channel is filtered and part of colour; else it is copied
   bool count = false;             // `counters`: pixels that are not finite in src [0], guide [1], depth that is no
                                   // surface [2] (sky, zero, negative, NaN), normals that are zero or not finite [3]

@@ -21,6 +21,16 @@ FN wide guided_tap(CTX, int p, int x, int y, int x2, int y2, bool pair) {
     return w;
 }
 
+// Whether a row of a tile is left to another pass.
+FN bool is_left(CTX, int x, int y) {
+    const int columns = (params.width + 15) / 16;
+    const int first = FLAT == 2 ? max(y - params.reach, 0) / 16 : y / 16;
+    const int last = FLAT == 2 ? min(y + params.reach, params.height - 1) / 16 : y / 16;
+    bool found = false;
+    for (int tile = first; tile <= last; ++tile) found = found || load(flats, tile * columns + x / 16) != 0u;
+    return found == (FLAT == 1);
+}
+
 // dst at a pixel: the filtered colours; what is not finite stays as it is, alpha too where it is not filtered.
 #define FILTERED(c) get_pixel(sum[b * COLOURS + min(c, COLOURS - 1)], k)
 #if DST_CHANNELS == 1
@@ -41,6 +51,9 @@ KERNEL(bilateral) {
     const int x = invocation_x() * PIXELS;
     const int y = (invocation_y() / STEP) * STEP * BLOCK + invocation_y() % STEP;
     if (x >= params.width || y >= params.height) return;
+    if (FLAT != 0) {
+        if (is_left(ctx, x, y)) return;
+    }
 
     ARRAY(wide, centre, BLOCK * COLOURS)
     ARRAY(wide, sum, BLOCK * COLOURS)
@@ -120,7 +133,8 @@ KERNEL(bilateral) {
                 const int t = j - b;
                 if (BLOCK > 1 && (t < -ROWS || t > ROWS || i * i + t * t > REACH)) continue;
                 if (i == 0 && t == 0) continue;
-                wide e = wide_splat(table(spatial, max(i, -i)) + table(spatial, max(t, -t)));
+                const float space = table(spatial, max(i, -i)) + table(spatial, max(t, -t));
+                wide e = wide_splat(space);
                 if (BIAS != 0) e = e + tap_bias;
                 if (RANGE != 0) {
                     wide distance2;
@@ -150,7 +164,8 @@ KERNEL(bilateral) {
                     e = e + params.normal_power * wide_log2_cosine(cosine);
                 }
                 if (LUMINANCE != 0) e = e - luminance[b * 2 + 1] * wide_abs(tap_luminance - luminance[b * 2]);
-                wide w = wide_weight(e);
+                const bool alone = RANGE == 0 && BIAS == 0 && DEPTH == 0 && NORMAL == 0 && LUMINANCE == 0;
+                wide w = alone ? wide_splat(range_weight(space)) : wide_weight(e);
                 if (ADAPTIVE != 0 && pair) w = w + w;
                 weight[b] = weight[b] + w;
                 UNROLL for (int c = 0; c < COLOURS; ++c)

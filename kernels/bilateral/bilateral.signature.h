@@ -28,6 +28,7 @@
     _(int, variance)    /* of the image before the pass */ \
     _(int, carried_stride) /* pixels from row to row of `variances` */ \
     _(int, carried_at)     /* its first pixel */ \
+    _(int, reach)          /* FLAT 2: rows from a result of 3 to its farthest tap */ \
     _(float, range_factor)  /* log2(e) / (2 sigma_r^2) */ \
     _(float, normal_power)  /* sigma_n */ \
     _(float, depth_scale)   /* plane: sigma_z * footprint at distance 1; svgf: sigma_z */
@@ -46,7 +47,8 @@
     _(11, int, NORMAL, 0) \
     _(12, int, LUMINANCE, 0) \
     _(13, int, CARRY, 0)     /* 1: the variance of the result is computed too */ \
-    _(14, int, ADAPTIVE, 0)  /* taps beyond this one are pairs of pixels, averaged; 0: none */
+    _(14, int, ADAPTIVE, 0)  /* taps beyond this one are pairs of pixels, averaged; 0: none */ \
+    _(15, int, FLAT, 0)      /* of tiles of 16 x 16: 0: all; 1: those not in `flats`; 2: rows that 3 reads; 3: those in `flats` */
 #define SHAPE(_) \
     _(16, int, LANES, 16)    /* neighbouring pixels an invocation computes */ \
     _(17, int, BLOCK, 1)     /* results an invocation computes along a column, STEP apart */
@@ -56,4 +58,5 @@
     _(READ, 2, DST, src)        /* the image before it was split */ \
     _(WRITE, 3, DST, dst)       /* pixels, or planes like `planes` */ \
     _(WRITE, 4, f32x1, variances) \
-    _(UNIFORM, 5, 4096, spatial) /* log2 of the spatial weight of tap i */
+    _(UNIFORM, 5, 4096, spatial) /* log2 of the spatial weight of tap i */ \
+    _(READ, 6, uint, flats) /* of bilateral_flat */

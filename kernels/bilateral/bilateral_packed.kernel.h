@@ -17,6 +17,9 @@ KERNEL(bilateral_packed) {
     const int x = invocation_x() * ACROSS;
     const int y = invocation_y() * DOWN;
     if (x >= params.width || y >= params.height) return;
+    if (FLAT != 0) {
+        if (load(flats, y / 16 * ((params.width + 15) / 16) + x / 16) != 0u) return;
+    }
 
     ARRAY(vec4, centre, ACROSS * DOWN)
     ARRAY(vec4, guide, ACROSS * DOWN)

@@ -18,7 +18,8 @@
     _(2, int, BORDER, 0)  /* math/border.h, but zero */ \
     _(3, int, COLOURS, 3) /* channels that are filtered: 3, or 4 */ \
     _(4, int, RANGE, 1)   /* 1: the colours weigh themselves, 2: `guides` */ \
-    _(5, int, L1, 0)      /* 1: colour distance is the sum of absolute differences */
+    _(5, int, L1, 0)      /* 1: colour distance is the sum of absolute differences */ \
+    _(6, int, FLAT, 0)    /* 1: tiles of 16 x 16 in `flats` are left out */
 #define SHAPE(_) \
     _(8, int, ACROSS, 2)  /* results an invocation computes along a row */ \
     _(9, int, DOWN, 4)    /* and along a column */
@@ -27,4 +28,5 @@
     _(TEXELS, 1, f32x4, guides) \
     _(READ, 2, DST, src)  /* the image before it was packed */ \
     _(WRITE, 3, DST, dst) \
-    _(UNIFORM, 4, 4096, spatial) /* log2 of the spatial weight of tap i */
+    _(UNIFORM, 4, 4096, spatial) /* log2 of the spatial weight of tap i */ \
+    _(READ, 5, uint, flats) /* of bilateral_flat */

@@ -108,6 +108,11 @@ void add_bilateral_equality_cases(std::vector<Case>& cases) {
   p.adaptive = true;
   p.radius = 9;
   cases.push_back(equal_to_cpp("adaptive", p));
+  p = bilateral_params(67, 43, "g");
+  p.flat = 0.5;
+  p.sigma_range = 1;
+  cases.push_back(equal_to_cpp("flat tiles", p));
+  cases.push_back(packed_equals_planes("flat tiles", p));
   p = bilateral_params(67, 43, "c");
   p.window = FilterWindow::circle;
   p.range_norm = RangeNorm::l1;

@@ -1,4 +1,4 @@
-// What bilateral leaves out: pixels whose noise is below a target; steps that leave the image; and what the pairs of `adaptive`
+// What bilateral leaves out: pixels whose noise is below a target; tiles without edges; steps that leave the image; and what the pairs of `adaptive`
 // mix across edges.
 #include <algorithm>
 #include <cmath>
@@ -86,6 +86,93 @@ void add_targets(std::vector<Case>& cases) {
                      if (!a) return a.status();
                      if (!b) return b.status();
                      return count_different(a.value().dst, b.value().dst);
+                   }});
+}
+
+// A ramp of colour, a guide, a plane seen at a slant and its normal, all but even; across the middle an edge in each of them.
+BilateralImages even_images(const BilateralParams& p) {
+  BilateralImages m = bilateral_images(p, 29);
+  const int n = channels(p.format), g = channels(p.guide_format);
+  for (int i = 0; i < p.width * p.height; ++i) {
+    const int x = i % p.width, y = i / p.width, side = x >= p.width / 2 ? 1 : 0;
+    const double step = 0.4 * side, wave = 0.002 * std::sin(0.7 * x + 0.4 * y);
+    for (int c = 0; c < n; ++c) m.src[i * n + c] = 0.3 + step + 0.0004 * y + wave * (c + 1);
+    for (int c = 0; c < g; ++c) m.guide[i * g + c] = 0.2 + step - 0.0003 * x + wave;
+    m.depth[i] = 1 / (0.5 - 0.002 * y + 0.1 * side);
+    const double normal[4] = {side ? 0.6 : 0.0, 0, side ? 0.8 : 1.0, 0};
+    for (int c = 0; c < 4; ++c) m.normals[4 * i + c] = normal[c];
+    m.variance[i] = 0.01;
+  }
+  m.src = quantise(m.src, p.format);
+  m.guide = quantise(m.guide, p.guide_format);
+  m.depth = quantise(m.depth, Format::f32x1);
+  m.normals = quantise(m.normals, p.normal_format);
+  return m;
+}
+
+// Against the filter of all tiles: the edge's tiles must be equal to the bit, the others within the promised part of what
+// colours differ by, and most of them must have taken the other way. One pixel is no number: the tiles that it reaches stay.
+Case flat_tiles(const std::string& terms, Format format, Border border) {
+  return {"", fmt::format("flat tiles, terms '{}', {}, border {}", terms, name(format), static_cast<int>(border)),
+          "tiles at an edge to the bit, others within flat/4 (1 + flat) of what colours differ by (parts of that)", 1,
+          [=](Context& context) -> Result<double> {
+            constexpr int w = 150, h = 90, reach = 4;
+            BilateralParams p = bilateral_params(w, h, terms, format, border);
+            p.sigma_luminance = 10;
+            BilateralImages images = even_images(p);
+            const int n = channels(format);
+            constexpr int spoilt_x = 20, spoilt_y = 40;
+            images.src[(spoilt_y * w + spoilt_x) * n] = std::numeric_limits<double>::quiet_NaN();
+            const auto all = filter(context, p, images);
+            p.flat = 0.1;
+            const auto some = filter(context, p, images);
+            if (!all) return all.status();
+            if (!some) return some.status();
+            double worst = 0;
+            int changed = 0;
+            const auto reached = [&](int begin, int at, int size) {
+              return at >= begin - reach && at <= std::min(begin + 15, size - 1) + reach;
+            };
+            for (int y = 0; y < h; ++y)
+              for (int x = 0; x < w; ++x) {
+                const int tx = x / 16 * 16, ty = y / 16 * 16;
+                const bool edge = terms.size() > 0 && tx - reach < w / 2 && std::min(tx + 15, w - 1) + reach >= w / 2;
+                const bool spoilt = reached(tx, spoilt_x, w) && reached(ty, spoilt_y, h);
+                for (int c = 0; c < n; ++c) {
+                  const double a = all.value().dst[(y * w + x) * n + c], b = some.value().dst[(y * w + x) * n + c];
+                  changed += !same(a, b);
+                  if (edge || spoilt) {
+                    worst = std::max(worst, same(a, b) ? 0.0 : HUGE_VAL);
+                    continue;
+                  }
+                  double least = 1e9, greatest = -1e9;
+                  for (int j = -reach; j <= reach; ++j)
+                    for (int i = -reach; i <= reach; ++i) {
+                      const double v = images.src[(std::clamp(y + j, 0, h - 1) * w + std::clamp(x + i, 0, w - 1)) * n + c];
+                      least = std::min(least, v);
+                      greatest = std::max(greatest, v);
+                    }
+                  worst = std::max(worst, (std::fabs(a - b) - 4e-7) / (p.flat / 4 * (1 + p.flat) * (greatest - least)));
+                }
+              }
+            return changed > 1000 ? worst : HUGE_VAL;
+          },
+          terms.size() > 0 && terms != "c" && terms != "cdnl"};
+}
+
+void add_flat(std::vector<Case>& cases) {
+  for (const std::string terms : {"", "c", "g", "d", "n", "l", "cdnl"})
+    cases.push_back(flat_tiles(terms, Format::f32x4, Border::clamp));
+  cases.push_back(flat_tiles("c", Format::f32x1, Border::mirror));
+  cases.push_back({"", "flat tiles of a constant image", "constant to the bit (values that differ)", 0,
+                   [](Context& context) -> Result<double> {
+                     BilateralParams p = bilateral_params(width, height, "c");
+                     p.flat = 0.05;
+                     BilateralImages images = bilateral_images(p, 30);
+                     images.src.assign(images.src.size(), 0.25);
+                     const auto out = filter(context, p, images);
+                     if (!out) return out.status();
+                     return count_different(out.value().dst, images.src);
                    }});
 }
 
@@ -177,6 +264,7 @@ void add_adaptive_nan(std::vector<Case>& cases) {
 
 void add_bilateral_left_out_cases(std::vector<Case>& cases) {
   add_targets(cases);
+  add_flat(cases);
   add_steps(cases);
   add_mixing(cases);
   add_adaptive_nan(cases);

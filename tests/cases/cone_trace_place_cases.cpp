@@ -135,6 +135,30 @@ Case steps_case() {
           }};
 }
 
+// Two steps of a sixteenth of a voxel lead nowhere: nearly all cones of zero width must say that they were stopped.
+Case cap_case() {
+  return {"", "a cap of two steps", "cones that the cap stops are counted as capped (part that are not, of those in the volume)",
+          0.1, [](Context& context) -> Result<double> {
+            double most = 0;
+            for (const ConeVariant variant : {ConeVariant::isotropic, ConeVariant::anisotropic}) {
+              ConeTraceParams p = cone_params(side, variant);
+              p.width = 32;
+              p.count = true;
+              p.cones = classic_cones();
+              for (Cone& c : p.cones) c.aperture = 0;
+              p.step_scale = 0.0625;
+              p.start = 0;
+              p.max_steps = 2;
+              const Values thin(static_cast<std::size_t>(side) * side * side * 4, 1e-3);
+              const auto r = trace(context, p, thin, cone_receivers(p, p.width, 3));
+              if (!r) return r.status();
+              const double within = r.value().counters[0] - r.value().counters[5];
+              most = std::max(most, within > 32 ? 1 - r.value().counters[4] / within : 1.0);
+            }
+            return most;
+          }};
+}
+
 // The inner corner of three opaque walls that shine: the receiver sees mostly walls, and their light is all the same.
 Case corner_case() {
   return {"", "corner of three filled voxels", "light in a corner is at most that of the walls (excess, or negative light)",
@@ -251,6 +275,7 @@ void add_cone_place_cases(std::vector<Case>& cases) {
   cases.push_back(outside_case());
   cases.push_back(towards_case());
   cases.push_back(steps_case());
+  cases.push_back(cap_case());
   for (const ConeVariant v : {ConeVariant::isotropic, ConeVariant::anisotropic}) {
     cases.push_back(symmetry_case(v));
   }
