@@ -203,6 +203,12 @@ TEST(BilateralValidate, NamesFieldValueAndRange) {
          p.luminance = true;
          p.variance_target = -1;
        }},
+      {"BilateralParams.flat is 0.6; expected 0..0.5", [](auto& p) { p.flat = 0.6; }},
+      {"BilateralParams.flat is 0.1; expected 0 but for variant direct, a square window, step 1, depth off or plane",
+       [](auto& p) {
+         p.flat = 0.1;
+         p.window = FilterWindow::circle;
+       }},
       {"BilateralParams.carry_variance is true; expected false but for variant atrous with luminance",
        [](auto& p) { p.carry_variance = true; }},
       {"BilateralParams.border is 9; expected 0..3", [](auto& p) { p.border = static_cast<Border>(9); }},
