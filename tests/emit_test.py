@@ -235,30 +235,76 @@ def test_refusals(at):
                             (["gaussian_blur", "--options", "border=round"], "expected one of clamp, mirror, wrap, zero"),
                             (["gaussian_blur", "--options", "sigma=-1"], "GaussianBlurParams.sigma is -1"),
                             (["gaussian_blur", "--constants", "RADIUM=3"], "no constant RADIUM"),
+                            (["gaussian_blur", "--constants", "AXIS=7"], "constant AXIS is 7; expected one of 0, 1 (0: along rows"),
+                            (["gaussian_blur", "--constants", "RADIUS=-1"], "constant RADIUS is -1; expected a whole number 0.."),
+                            (["gaussian_blur", "--constants", "RADIUS=1.5"], "constant RADIUS is 1.5; expected a whole number"),
+                            (["gaussian_blur", "--constants", "RADIUS=nan"], "constant RADIUS is nan; expected a whole number"),
+                            (["gaussian_blur", "--constants", "RADIUS=4294967296"], "constant RADIUS is 4294967296; expected"),
                             (["gaussian_blur", "--size", "0x3"], "--size is 0x3"),
                             (["probe_minimum", "--variant", "x"], "has no variants")):
         said = run(PROGRAM, "emit", *arguments, "-o", at / "x", status=2)
         assert text in said and said.count("\n") == 1, said
 
 
+def test_variant_is_named(at):
+    for arguments, variant in ((["gaussian_blur"], "separable"), (["gaussian_blur", "--variant", "box"], "box"),
+                               (["gaussian_blur", "--options", "variant=recursive"], "recursive"), (["probe_minimum"], "default")):
+        manifest = emit(*arguments, "--format", "glsl", out=at / "x")
+        assert manifest["variant"] == variant, (arguments, manifest["variant"])
+
+
+def test_folders_of_any_name(at):
+    odd = at / "it's $HOME; `a`"
+    odd.mkdir()
+    before = os.environ.get("TMPDIR")
+    os.environ["TMPDIR"] = str(odd)
+    try:
+        manifest = emit("gaussian_blur", "--size", "8x8", out=odd / "out")
+    finally:
+        os.environ.pop("TMPDIR")
+        if before is not None:
+            os.environ["TMPDIR"] = before
+    assert manifest["shaders"] and (odd / "out/gaussian_blur.json").exists()
+    assert [f.name for f in odd.iterdir()] == ["out"], "what was there for a while is gone"
+
+
 def full_kernels(at):
-    """Every kernel's default: SPIR-V is valid, GLSL goes through glslang, OpenCL C builds, C++ compiles without a warning."""
+    """Every kernel's variants: SPIR-V is valid, GLSL goes through glslang, OpenCL C builds, C++ compiles without a warning."""
     import pyopencl
     said = run(PROGRAM, "emit", "?", "-o", at / "x", status=2)
     kernels = re.search(r"expected (.*)", said)[1].split(", ")
     assert len(kernels) >= 24, kernels
     context = pyopencl.Context([pyopencl.get_platforms()[0].get_devices()[0]])
-    headers = {}
+    headers = [{}]  # each file is a namespace: of equal names one a program
+    # Each kernel as it is by default, and in each of its variants.
+    calls = []
     for kernel in kernels:
-        manifest = emit(kernel, out=at / kernel)
+        calls.append((kernel, []))
+        said = run(PROGRAM, "emit", kernel, "--variant", "?", "-o", at / "x", status=2)
+        if "expected one of " in said:
+            standard = emit(kernel, "--format", "glsl", out=at / "standard")["variant"]
+            calls += [(kernel, ["--variant", v]) for v in re.search(r"expected one of (.*)", said)[1].split(", ") if v != standard]
+    assert len(calls) >= 45, calls
+    seen = set()
+    for kernel, arguments in calls:
+        out = at / "_".join([kernel, *arguments[1:]])
+        manifest = emit(kernel, *arguments, out=out)
         for shader in manifest["shaders"]:
-            files = {which: at / kernel / file for which, file in shader["files"].items()}
+            files = {which: out / file for which, file in shader["files"].items()}
+            text = re.sub(r"//.*", "", files["opencl"].read_text())
+            if text in seen:  # but for the comment, which has the command
+                continue
+            seen.add(text)
             run("spirv-val", "--target-env", "vulkan1.1", files["spirv"])
-            run("glslangValidator", "-V", files["glsl"], "-o", at / "again.spv")
+            if not arguments:
+                run("glslangValidator", "-V", files["glsl"], "-o", at / "again.spv")
             pyopencl.Program(context, files["opencl"].read_text()).build(cache_dir=False)
-            headers[shader["name"]] = files["cpp"]  # of equal names one: each is a namespace
-    (at / "all.cpp").write_text("".join(f'#include "{h}"\n' for h in headers.values()) + "int main() {}\n")
-    run("g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", at / "all.cpp")
+            if all(shader["name"] in program for program in headers):
+                headers.append({})
+            next(program for program in headers if shader["name"] not in program)[shader["name"]] = files["cpp"]
+    for program in headers:
+        (at / "all.cpp").write_text("".join(f'#include "{h}"\n' for h in program.values()) + "int main() {}\n")
+        run("g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", at / "all.cpp")
 
 
 tests = {name: f for name, f in list(globals().items()) if name.startswith("test_" if LABEL == "quick" else "full_")}

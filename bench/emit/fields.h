@@ -75,12 +75,18 @@ struct Field {
   std::string name;
   std::function<bool(Params&, std::string_view)> set;
   std::string takes;
+  std::function<std::string(Params&)> value;  // its name; empty where values have no names
 };
 
 template <class Params, class Get>
 Field<Params> field(std::string name, Get get) {
   Params sample{};
-  return {std::move(name), [get](Params& p, std::string_view text) { return read(text, get(p)); }, expected(get(sample))};
+  return {std::move(name), [get](Params& p, std::string_view text) { return read(text, get(p)); }, expected(get(sample)),
+          [get](Params& p) -> std::string {
+            using T = std::remove_cvref_t<decltype(get(p))>;
+            if constexpr (std::is_enum_v<T>) return std::string(Names<T>::of[static_cast<std::size_t>(get(p))]);
+            else return {};
+          }};
 }
 
 }  // namespace luxel::emit

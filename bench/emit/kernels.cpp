@@ -60,8 +60,11 @@ namespace {
 template <class Params>
 Kernel make(std::string name, std::string folder, std::string variant, std::vector<std::string> sizes, std::vector<int> size,
             Params start, std::vector<Field<Params>> fields, std::function<void(Params&)> complete = {}) {
-  Kernel kernel{std::move(name), std::move(folder), std::move(variant), std::move(sizes), std::move(size), {}, {}};
-  for (const auto& f : fields) kernel.fields.emplace_back(f.name, f.takes);
+  Kernel kernel{std::move(name), std::move(folder), std::move(variant), "default", std::move(sizes), std::move(size), {}, {}};
+  for (const auto& f : fields) {
+    kernel.fields.emplace_back(f.name, f.takes);
+    if (f.name == kernel.variant) kernel.standard = f.value(start);
+  }
   kernel.plan = [name = kernel.name, start, fields, complete](const Settings& settings, const Profile& profile) -> Result<Plan> {
     Params p = start;
     for (const auto& [key, value] : settings) {

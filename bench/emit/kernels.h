@@ -15,6 +15,7 @@ struct Kernel {
   std::string name;
   std::string folder;               // of kernels/, where its README is
   std::string variant;              // the field that --variant sets; empty: there is none
+  std::string standard;             // what it is when not given; `default` where there is none
   std::vector<std::string> sizes;   // fields that --size sets, in order
   std::vector<int> size;            // what they are when not given
   std::function<Result<Plan>(const Settings&, const Profile&)> plan;

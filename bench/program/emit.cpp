@@ -9,12 +9,11 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "bench/emit/embedded.h"
 #include "bench/emit/kernels.h"
 #include "bench/io/temporary_folder.h"
+#include "bench/report/child.h"
 #include "commands.h"
 #include "common.h"
 #include "host/module.h"
@@ -90,7 +89,7 @@ std::string_view embedded(std::string_view name) {
   return {};
 }
 
-/// Runs the emitter on a request; its last line on stderr is what is wrong.
+/// Runs the emitter on a request. `output`: a line for each file that it wrote. `problem`: the last line that it said.
 int run_script(const json& request, std::string& output, std::string& problem) {
   const io::TemporaryFolder scripts("luxel-emit");
   const std::string& at = scripts.path();
@@ -98,16 +97,14 @@ int run_script(const json& request, std::string& output, std::string& problem) {
   for (const emit::Embedded& file : emit::embedded())
     if (file.name.ends_with(".py")) std::ofstream(at + "/" + std::string(file.name)) << file.text;
   std::ofstream(at + "/request.json") << request.dump();
-  const std::string command = fmt::format("python3 -B '{0}/emit.py' < '{0}/request.json' 2> '{0}/problem'", at);
-  FILE* const pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return problem = "cannot run python3", -1;
-  char buffer[4096];
-  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) output.append(buffer, n);
-  const int status = pclose(pipe);
-  std::ifstream in(at + "/problem");
+  // No shell: a folder may have any name.
+  const report::Ended ended = report::run_child({"/usr/bin/env", "python3", "-B", at + "/emit.py", at + "/request.json"}, {},
+                                                at + "/said", 600, [](const std::string&) {});
+  std::ifstream in(at + "/said");
   for (std::string line; std::getline(in, line);)
-    if (!line.empty()) problem = line;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (!line.empty()) output += line + "\n", problem = line;
+  if (!ended.started) return 127;
+  return ended.died() ? -1 : ended.status;
 }
 
 int run(const Arguments& a, const std::string& command) {
@@ -148,6 +145,9 @@ int run(const Arguments& a, const std::string& command) {
     settings.emplace_back(key, value);
     options[key] = value;
   }
+  std::string variant = kernel->standard;
+  for (const auto& [key, value] : settings)
+    if (key == kernel->variant) variant = value;
   for (const auto& [key, value] : pairs(a.constants)) {
     if (key.empty()) return complain(fmt::format("emit: --constants has {}; expected NAME=VALUE or NAME=open", value), misused);
     constants[key] = value;
@@ -195,7 +195,7 @@ int run(const Arguments& a, const std::string& command) {
               {"stated", errors["stated"].value(kernel->folder, json::array())},
               {"source", "kernels/" + kernel->folder + "/README.md"}};
   const json request{{"version", LUXEL_VERSION}, {"command", command}, {"license", embedded("LICENSE")},
-                     {"kernel", kernel->name}, {"variant", a.variant}, {"options", options}, {"constants", constants},
+                     {"kernel", kernel->name}, {"variant", variant}, {"options", options}, {"constants", constants},
                      {"profile", a.profile}, {"format", a.format}, {"out", a.out}, {"plans", plans}, {"sizes", sizes},
                      {"modules", modules}, {"errors", stated}, {"glslang", "glslangValidator"}};
   std::string output, problem;
@@ -204,7 +204,7 @@ int run(const Arguments& a, const std::string& command) {
     return complain(problem.starts_with("emit: ") ? problem
                     : status == 127               ? "emit: python3 is not there; install python3"
                                                   : fmt::format("emit: {}", problem.empty() ? "the emitter failed" : problem),
-                    failed);
+                    status == misused ? misused : failed);
   std::size_t files = 0;
   for (const char c : output) files += c == '\n';
   fmt::print("emit: {} files of {} in {}; what to bind and dispatch: {}.json\n", files, kernel->name, a.out, kernel->name);

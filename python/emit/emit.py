@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes one kernel as flat files with a manifest. The program `luxel emit` pipes the plan and the modules' texts here.
 
-    emit.py < request.json     prints the names of the files that were written
+    emit.py request.json     prints the names of the files that were written
 """
 import json
 import pathlib
@@ -26,8 +26,25 @@ KINDS = {"READ": "storage_buffer", "WRITE": "storage_buffer", "UPDATE": "storage
 ACCESS = {"READ": "read", "WRITE": "write", "UPDATE": "read_write", "IMAGE_WRITE2D": "write"}
 
 
-def fail(message):
-    sys.exit(f"emit: {message}")
+def fail(message, status=1):
+    print(f"emit: {message}", file=sys.stderr)
+    sys.exit(status)
+
+
+def refused(kind, default, remark, value):
+    """What a constant takes where it does not take `value`, else nothing. Its line of the signature names its values, as
+    `0: along rows, 1: along columns`, `2 or 3` (of a switch the one that is not named is allowed too); where it does not, the
+    type decides. None is negative but where its default is."""
+    if kind == "float":
+        return "" if abs(value) <= 3.4028234663852886e38 else "a finite number"
+    whole = value == value and abs(value) < 2 ** 33 and value == int(value)
+    named = {int(n) for n in re.findall(r"(?:^|[,;] | or )(\d+)(?=:? )", remark + " ")} if re.match(r"\d+(:| )", remark) else set()
+    if named:
+        named |= {0, 1} if named <= {0, 1} else {0} if re.match("[01]:? ", remark) else set()
+        return "" if whole and value in named else f"one of {', '.join(str(n) for n in sorted(named))} ({remark})"
+    least = -2147483648 if kind == "int" and float(str(default).rstrip("fu")) < 0 else 0
+    most = 4294967295 if kind == "uint" else 2147483647
+    return "" if whole and least <= value <= most else f"a whole number {least}..{most}"
 
 
 def spelled(kind, value):
@@ -64,16 +81,19 @@ class Emitter:
     def frozen(self, run, module, source):
         """(name -> value, names that stay open) of a pass's constants."""
         given, opened, values = self.request["constants"], set(), {}
+        declared = {n: (t, v, r) for _, t, n, v, r, _ in source.constants}
         for info, value in zip(module["constants"], run["constants"]):
             name = info["name"]
             if given.get(name) == "open":
                 if info["shape"]:
-                    fail(f"constant {name} decides how many groups there are and cannot stay open")
+                    fail(f"constant {name} decides how many groups there are and cannot stay open", 2)
                 opened.add(name)
             elif name in given:
                 value = float(given[name])
                 if info["shape"]:
-                    fail(f"constant {name} follows from --profile; the plan counts groups by it")
+                    fail(f"constant {name} follows from --profile; the plan counts groups by it", 2)
+                if expected := refused(*declared[name], value):
+                    fail(f"constant {name} is {given[name]}; expected {expected}", 2)
             values[name] = value
         return values, opened
 
@@ -302,4 +322,4 @@ class Emitter:
 
 
 if __name__ == "__main__":
-    Emitter(json.load(sys.stdin)).run()
+    Emitter(json.loads(pathlib.Path(sys.argv[1]).read_text())).run()
