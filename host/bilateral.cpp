@@ -432,14 +432,21 @@ class Builder {
     flats_ = planner_.scratch(Format::u32, static_cast<std::size_t>(columns) * rows);
     const auto range = [&](int count, Slot planes, int plane, int kind, int first) {
       if (count == 0) return;
-      planner_.pass("bilateral_range", "f32x1", "bilateral range",
-                    {static_cast<std::uint32_t>(p_.width), static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(count)},
-                    workgroup_,
-                    {{"width", p_.width}, {"height", p_.height}, {"pitch", pitch_}, {"pad", pad_}, {"plane", plane}, {"first", first}},
-                    {{"KIND", kind}}, {{"planes", planes}, {"ranges", ranges}});
+      planner_.pass(
+          "bilateral_range", "f32x1", "bilateral range",
+          {static_cast<std::uint32_t>(p_.width), static_cast<std::uint32_t>(rows), static_cast<std::uint32_t>(count)},
+          workgroup_,
+          {{"width", p_.width},
+           {"height", p_.height},
+           {"pitch", pitch_},
+           {"pad", pad_},
+           {"plane", plane},
+           {"first", first}},
+          {{"KIND", kind}}, {{"planes", planes}, {"ranges", ranges}});
       planner_.cost(3.0 * count * p_.width * p_.height, 4.5 * count * p_.width * p_.height);
     };
-    range(colours, range_ == RangeTerm::guide ? guides_ : colours_, range_ == RangeTerm::guide ? guide_plane_ : 0, 0, 0);
+    range(colours, range_ == RangeTerm::guide ? guides_ : colours_, range_ == RangeTerm::guide ? guide_plane_ : 0, 0,
+          0);
     range(bias_ ? 1 : 0, guides_, bias_plane_, 0, bias);
     range(plane ? 3 : 0, guides_, depth_plane_, 1, depth);
     range(normal_ ? 4 : 0, guides_, normal_plane_, 2, normal);
@@ -466,9 +473,23 @@ class Builder {
                    {"INSIDE", plane || p_.border == Border::wrap || p_.border == Border::zero}},
                   {{"ranges", ranges}, {"flats", flats_}});
     const Slot between = planes(colour_count_), table = window();
-    filter({.columns = taps_, .rows = 0, .step = 1, .reach = taps_ * taps_, .from = colours_, .table = table, .last = false,
-            .to = between, .flat = 2, .space = true});
-    filter({.columns = 0, .rows = taps_, .step = 1, .reach = taps_ * taps_, .from = between, .table = table, .flat = 3,
+    filter({.columns = taps_,
+            .rows = 0,
+            .step = 1,
+            .reach = taps_ * taps_,
+            .from = colours_,
+            .table = table,
+            .last = false,
+            .to = between,
+            .flat = 2,
+            .space = true});
+    filter({.columns = 0,
+            .rows = taps_,
+            .step = 1,
+            .reach = taps_ * taps_,
+            .from = between,
+            .table = table,
+            .flat = 3,
             .space = true});
   }
 
@@ -527,11 +548,10 @@ class Builder {
                    {"spatial", f.table},
                    {"flats", f.flat ? flats_ : f.from}});
     const double taps = (2.0 * f.columns + 1) * (2.0 * f.rows + 1);
-    const double operations = f.space ? 18 + 3 * colour_count_ : 18 + 3 * colour_count_ +
-                         (range_ == RangeTerm::off ? 0 : 3 * std::max(guide_count_, colour_count_)) +
-                         (depth_ == DepthTerm::off ? 0 : 12) + (normal_ ? 25 : 0) + (luminance_ ? 4 : 0);
+    const double weighing = (range_ == RangeTerm::off ? 0 : 3 * std::max(guide_count_, colour_count_)) +
+                            (depth_ == DepthTerm::off ? 0 : 12) + (normal_ ? 25 : 0) + (luminance_ ? 4 : 0);
     planner_.cost(
-        taps * operations * p_.width * p_.height,
+        taps * (18 + 3 * colour_count_ + (terms ? weighing : 0)) * p_.width * p_.height,
         (4.0 * (colour_count_ + guide_planes_) + (f.last ? 2.0 * bytes_per_pixel(p_.format) : 4.0 * colour_count_)) *
             p_.width * p_.height);
   }

@@ -125,120 +125,103 @@ std::vector<Job> filter_grid(Session& session) {
 
 namespace {
 
+// Two settings of direct beside each other on the built-in picture, the second of which leaves something out.
+struct Setting {
+  BilateralParams params;
+  cases::BilateralImages images;
+};
+
+struct Pair {
+  std::vector<double> first, second;  // dst
+  double saved_ms, saved_bytes;
+};
+
+Setting setting(const std::string& terms) {
+  const BilateralParams p = cases::bilateral_params(512, 512, terms);
+  return {p, cases::bilateral_images(p, 1)};
+}
+
+Result<Pair> compared(Session& session, const Setting& first, const Setting& second, const std::string& what) {
+  std::vector<std::shared_ptr<Run>> runs;
+  for (const Setting* s : {&first, &second}) {
+    Result<Run> made = Run::make(session.context(), plan(s->params, session.context().profile()));
+    if (!made) return made.status();
+    if (Status status = write_inputs(made.value(), {{"src", &s->images.src},
+                                                    {"guide", &s->images.guide},
+                                                    {"depth", &s->images.depth},
+                                                    {"normals", &s->images.normals}});
+        !status)
+      return status;
+    runs.push_back(std::make_shared<Run>(std::move(made).value()));
+  }
+  const auto times = session.interleave(timed(runs[0]), timed(runs[1]), "left out: " + what);
+  if (!times) return times.status();
+  std::vector<double> saved;
+  for (std::size_t i = 0; i < times.value().a.size(); ++i) saved.push_back(times.value().a[i] - times.value().b[i]);
+  auto a = runs[0]->read("dst"), b = runs[1]->read("dst");
+  if (!a) return a.status();
+  if (!b) return b.status();
+  return Pair{std::move(a).value(), std::move(b).value(), summarise(saved).median,
+              static_cast<double>(runs[0]->plan().bytes) - static_cast<double>(runs[1]->plan().bytes)};
+}
+
+void add_left_out(Session& session, const std::string& scene, const std::string& what, int level, double ms, double bytes,
+                  double error) {
+  session.row("left_out", {{"kernel", "bilateral"},
+                           {"scene", scene},
+                           {"what", what},
+                           {"level", level},
+                           {"saved_ms", ms},
+                           {"saved_bytes", bytes},
+                           {"error", error},
+                           {"device", session.device()}});
+}
+
 }  // namespace
 
 // What a term costs that is left out where it is not asked for.
 std::vector<Job> filter_left_out(Session& session) {
   std::vector<Job> jobs;
   if (session.is_cpu() && session.settings().quick) return jobs;  // 10 s that nobody runs it for
+  const std::string room = "a floor, a wall and a box 512x512";
   for (const auto& [term, what] :
        {std::pair{'d', "the depth term"}, {'n', "the normal term"}, {'g', "the colour term"}}) {
     if (session.settings().quick && term != 'd') continue;  // each compiles a window of its own
-    jobs.push_back(
-        {fmt::format("bilateral left out {}", what), [&session, term = term, what = what]() -> Status {
-           const std::string all = "gdn";
-           std::string fewer;
-           for (const char t : all)
-             if (t != term) fewer += t;
-           std::vector<std::shared_ptr<Run>> runs;
-           for (const std::string& terms : {all, fewer}) {
-             const BilateralParams p = cases::bilateral_params(512, 512, terms);
-             const cases::BilateralImages images = cases::bilateral_images(p, 1);
-             Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
-             if (!made) return made.status();
-             if (Status s = write_inputs(made.value(), {{"src", &images.src},
-                                                        {"guide", &images.guide},
-                                                        {"depth", &images.depth},
-                                                        {"normals", &images.normals}});
-                 !s)
-               return s;
-             runs.push_back(std::make_shared<Run>(std::move(made).value()));
-           }
-           const auto pair = session.interleave(timed(runs[0]), timed(runs[1]), fmt::format("left out: {}", what));
-           if (!pair) return pair.status();
-           std::vector<double> saved;
-           for (std::size_t i = 0; i < pair.value().a.size(); ++i)
-             saved.push_back(pair.value().a[i] - pair.value().b[i]);
-           session.row("left_out", {{"kernel", "bilateral"},
-                                    {"scene", "a floor, a wall and a box 512x512"},
-                                    {"what", fmt::format("{} is not asked for: neither compiled nor bound", what)},
-                                    {"level", 1},
-                                    {"saved_ms", summarise(saved).median},
-                                    {"saved_bytes", runs[0]->plan().bytes - runs[1]->plan().bytes},
-                                    {"error", 0},
-                                    {"device", session.device()}});
-           return {};
-         }});
+    jobs.push_back({fmt::format("bilateral left out {}", what), [=, &session, term = term, what = what]() -> Status {
+                      std::string fewer = "gdn";
+                      std::erase(fewer, term);
+                      const auto pair = compared(session, setting("gdn"), setting(fewer), what);
+                      if (!pair) return pair.status();
+                      add_left_out(session, room, fmt::format("{} is not asked for: neither compiled nor bound", what), 1,
+                                   pair.value().saved_ms, pair.value().saved_bytes, 0);
+                      return {};
+                    }});
   }
   // Sky is not filtered; the same picture with a surface there is.
   jobs.push_back({"bilateral left out sky", [&session]() -> Status {
-                    const BilateralParams p = cases::bilateral_params(512, 512, "dn");
-                    cases::BilateralImages surface = cases::bilateral_images(p, 1), sky = surface;
-                    for (std::size_t i = 0; i < sky.depth.size() / 2; ++i) sky.depth[i] = HUGE_VAL;
-                    std::vector<std::shared_ptr<Run>> runs;
-                    for (const cases::BilateralImages* images : {&surface, &sky}) {
-                      Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
-                      if (!made) return made.status();
-                      if (Status s = write_inputs(made.value(), {{"src", &images->src},
-                                                                 {"depth", &images->depth},
-                                                                 {"normals", &images->normals}});
-                          !s)
-                        return s;
-                      runs.push_back(std::make_shared<Run>(std::move(made).value()));
-                    }
-                    const auto pair = session.interleave(timed(runs[0]), timed(runs[1]), "left out: sky");
+                    const Setting surface = setting("dn");
+                    Setting sky = surface;
+                    const std::size_t half = sky.images.depth.size() / 2;
+                    for (std::size_t i = 0; i < half; ++i) sky.images.depth[i] = HUGE_VAL;
+                    const auto pair = compared(session, surface, sky, "sky");
                     if (!pair) return pair.status();
-                    std::vector<double> saved;
-                    for (std::size_t i = 0; i < pair.value().a.size(); ++i)
-                      saved.push_back(pair.value().a[i] - pair.value().b[i]);
                     // What was not filtered is the input to the bit.
-                    const auto out = runs[1]->read("dst");
-                    if (!out) return out.status();
-                    const std::size_t half = sky.src.size() / 2;
-                    const double changed = cases::max_difference(Values(out.value().begin(), out.value().begin() + half),
-                                                                 Values(sky.src.begin(), sky.src.begin() + half));
-                    session.row("left_out", {{"kernel", "bilateral"},
-                                             {"scene", "sky above a wall and a box 512x512"},
-                                             {"what", "the half of the picture that is sky is not filtered"},
-                                             {"level", 2},
-                                             {"saved_ms", summarise(saved).median},
-                                             {"saved_bytes", 0},
-                                             {"error", changed},
-                                             {"device", session.device()}});
+                    const double changed = cases::max_difference(std::span(pair.value().second).first(4 * half),
+                                                                 std::span(sky.images.src).first(4 * half));
+                    add_left_out(session, "sky above a wall and a box 512x512",
+                                 "the half of the picture that is sky is not filtered", 2, pair.value().saved_ms, 0, changed);
                     return {};
                   }});
   // Tiles without edges are blurred by rows and columns.
-  jobs.push_back({"bilateral left out flat tiles", [&session]() -> Status {
-                    BilateralParams p = cases::bilateral_params(512, 512, "dn");
-                    const cases::BilateralImages images = cases::bilateral_images(p, 1);
-                    std::vector<std::shared_ptr<Run>> runs;
-                    for (const double flat : {0.0, 0.05}) {
-                      p.flat = flat;
-                      Result<Run> made = Run::make(session.context(), plan(p, session.context().profile()));
-                      if (!made) return made.status();
-                      if (Status s = write_inputs(made.value(), {{"src", &images.src},
-                                                                 {"depth", &images.depth},
-                                                                 {"normals", &images.normals}});
-                          !s)
-                        return s;
-                      runs.push_back(std::make_shared<Run>(std::move(made).value()));
-                    }
-                    const auto pair = session.interleave(timed(runs[0]), timed(runs[1]), "left out: flat tiles");
+  jobs.push_back({"bilateral left out flat tiles", [=, &session]() -> Status {
+                    const Setting all = setting("dn");
+                    Setting some = all;
+                    some.params.flat = 0.05;
+                    const auto pair = compared(session, all, some, "flat tiles");
                     if (!pair) return pair.status();
-                    std::vector<double> saved;
-                    for (std::size_t i = 0; i < pair.value().a.size(); ++i)
-                      saved.push_back(pair.value().a[i] - pair.value().b[i]);
-                    const auto all = runs[0]->read("dst"), some = runs[1]->read("dst");
-                    if (!all) return all.status();
-                    if (!some) return some.status();
-                    session.row("left_out", {{"kernel", "bilateral"},
-                                             {"scene", "a floor, a wall and a box 512x512"},
-                                             {"what", "tiles without edges in depth and normals (flat 0.05) are blurred by space alone"},
-                                             {"level", 3},
-                                             {"saved_ms", summarise(saved).median},
-                                             {"saved_bytes", 0},
-                                             {"error", cases::max_difference(all.value(), some.value())},
-                                             {"device", session.device()}});
+                    add_left_out(session, room,
+                                 "tiles without edges in depth and normals (flat 0.05) are blurred by space alone", 3,
+                                 pair.value().saved_ms, 0, cases::max_difference(pair.value().first, pair.value().second));
                     return {};
                   }});
   return jobs;

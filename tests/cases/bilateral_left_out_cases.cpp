@@ -89,14 +89,15 @@ void add_targets(std::vector<Case>& cases) {
                    }});
 }
 
-// A ramp of colour, a guide, a plane seen at a slant and its normal, all but even; across the middle an edge in each of them.
-BilateralImages even_images(const BilateralParams& p) {
+// A ramp of colour, a guide, a plane seen at a slant and its normal, all but even; across the middle, or down, an edge in each.
+BilateralImages even_images(const BilateralParams& p, bool down) {
   BilateralImages m = bilateral_images(p, 29);
   const int n = channels(p.format), g = channels(p.guide_format);
   for (int i = 0; i < p.width * p.height; ++i) {
-    const int x = i % p.width, y = i / p.width, side = x >= p.width / 2 ? 1 : 0;
+    const int x = i % p.width, y = i / p.width, side = (down ? y >= p.height / 2 : x >= p.width / 2) ? 1 : 0;
     const double step = 0.4 * side, wave = 0.002 * std::sin(0.7 * x + 0.4 * y);
-    for (int c = 0; c < n; ++c) m.src[i * n + c] = 0.3 + step + 0.0004 * y + wave * (c + 1);
+    if (p.range == RangeTerm::self || p.luminance)  // else noise
+      for (int c = 0; c < n; ++c) m.src[i * n + c] = 0.3 + step + 0.0004 * y + wave * (c + 1);
     for (int c = 0; c < g; ++c) m.guide[i * g + c] = 0.2 + step - 0.0003 * x + wave;
     m.depth[i] = 1 / (0.5 - 0.002 * y + 0.1 * side);
     const double normal[4] = {side ? 0.6 : 0.0, 0, side ? 0.8 : 1.0, 0};
@@ -112,16 +113,19 @@ BilateralImages even_images(const BilateralParams& p) {
 
 // Against the filter of all tiles: the edge's tiles must be equal to the bit, the others within the promised part of what
 // colours differ by, and most of them must have taken the other way. One pixel is no number: the tiles that it reaches stay.
-Case flat_tiles(const std::string& terms, Format format, Border border) {
-  return {"", fmt::format("flat tiles, terms '{}', {}, border {}", terms, name(format), static_cast<int>(border)),
-          "tiles at an edge to the bit, others within flat/4 (1 + flat) of what colours differ by (parts of that)", 1,
+Case flat_tiles(const std::string& terms, Format format, Border border, bool down = false) {
+  return {"",
+          fmt::format("flat tiles, terms '{}', {}, border {}{}", terms, name(format), static_cast<int>(border),
+                      down ? ", edge down" : ""),
+          "tiles at an edge to the bit, others within flat/4 (1 + flat) of what colours differ by (parts of that)",
+          1,
           [=](Context& context) -> Result<double> {
-            constexpr int w = 150, h = 90, reach = 4;
+            constexpr int w = 156, h = 92, reach = 4;  // the edges are reached by tiles beside them
             BilateralParams p = bilateral_params(w, h, terms, format, border);
             p.sigma_luminance = 10;
-            BilateralImages images = even_images(p);
+            BilateralImages images = even_images(p, down);
             const int n = channels(format);
-            constexpr int spoilt_x = 20, spoilt_y = 40;
+            constexpr int spoilt_x = 18, spoilt_y = 47;  // reached from tiles to the left and below
             images.src[(spoilt_y * w + spoilt_x) * n] = std::numeric_limits<double>::quiet_NaN();
             const auto all = filter(context, p, images);
             p.flat = 0.1;
@@ -136,7 +140,9 @@ Case flat_tiles(const std::string& terms, Format format, Border border) {
             for (int y = 0; y < h; ++y)
               for (int x = 0; x < w; ++x) {
                 const int tx = x / 16 * 16, ty = y / 16 * 16;
-                const bool edge = terms.size() > 0 && tx - reach < w / 2 && std::min(tx + 15, w - 1) + reach >= w / 2;
+                const int begin = down ? ty : tx, size = down ? h : w;
+                const bool edge =
+                    terms.size() > 0 && begin - reach < size / 2 && std::min(begin + 15, size - 1) + reach >= size / 2;
                 const bool spoilt = reached(tx, spoilt_x, w) && reached(ty, spoilt_y, h);
                 for (int c = 0; c < n; ++c) {
                   const double a = all.value().dst[(y * w + x) * n + c], b = some.value().dst[(y * w + x) * n + c];
@@ -148,7 +154,8 @@ Case flat_tiles(const std::string& terms, Format format, Border border) {
                   double least = 1e9, greatest = -1e9;
                   for (int j = -reach; j <= reach; ++j)
                     for (int i = -reach; i <= reach; ++i) {
-                      const double v = images.src[(std::clamp(y + j, 0, h - 1) * w + std::clamp(x + i, 0, w - 1)) * n + c];
+                      const double v =
+                          images.src[(std::clamp(y + j, 0, h - 1) * w + std::clamp(x + i, 0, w - 1)) * n + c];
                       least = std::min(least, v);
                       greatest = std::max(greatest, v);
                     }
@@ -157,13 +164,37 @@ Case flat_tiles(const std::string& terms, Format format, Border border) {
               }
             return changed > 1000 ? worst : HUGE_VAL;
           },
-          terms.size() > 0 && terms != "c" && terms != "cdnl"};
+          terms.size() > 0 && terms != "c" && terms != "cdnl" && !down};
+}
+
+// Columns of two colours: their weights are 1 - flat where they differ by `critical`.
+Case flat_limit(const char* where, double part, bool flat) {
+  return {
+      "", fmt::format("flat tiles, colours {} the limit", where),
+      flat ? "every pixel takes the other way (pixels that do not)" : "no pixel takes the other way (pixels that do)",
+      0, [=](Context& context) -> Result<double> {
+        BilateralParams p = bilateral_params(64, 48, "c", Format::f32x1);
+        const double critical = p.sigma_range * std::sqrt(-2 * std::log(0.9));
+        BilateralImages images = bilateral_images(p, 31);
+        for (int i = 0; i < p.width * p.height; ++i) images.src[i] = 0.25 + (i % 64 % 3 == 0 ? part * critical : 0);
+        images.src = quantise(images.src, p.format);
+        const auto all = filter(context, p, images);
+        p.flat = 0.1;
+        const auto some = filter(context, p, images);
+        if (!all) return all.status();
+        if (!some) return some.status();
+        const double changed = count_different(all.value().dst, some.value().dst);
+        return flat ? 64 * 48 - changed : changed;
+      }};
 }
 
 void add_flat(std::vector<Case>& cases) {
   for (const std::string terms : {"", "c", "g", "d", "n", "l", "cdnl"})
     cases.push_back(flat_tiles(terms, Format::f32x4, Border::clamp));
   cases.push_back(flat_tiles("c", Format::f32x1, Border::mirror));
+  cases.push_back(flat_tiles("d", Format::f32x4, Border::clamp, true));
+  cases.push_back(flat_limit("below", 0.99, true));
+  cases.push_back(flat_limit("above", 1.01, false));
   cases.push_back({"", "flat tiles of a constant image", "constant to the bit (values that differ)", 0,
                    [](Context& context) -> Result<double> {
                      BilateralParams p = bilateral_params(width, height, "c");
