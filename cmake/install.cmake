@@ -58,4 +58,10 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}
 install(FILES ${PROJECT_SOURCE_DIR}/docs/emit.schema.json DESTINATION ${CMAKE_INSTALL_DATADIR}/luxel)
 if(TARGET luxel_program)
   install(TARGETS luxel_program RUNTIME COMPONENT tools)
+  # What makes the page of a report; the program finds it from where it lies.
+  file(GLOB report_scripts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/python/report/*.py)
+  install(FILES ${report_scripts} DESTINATION ${CMAKE_INSTALL_DATADIR}/luxel/report COMPONENT tools)
+  file(RELATIVE_PATH scripts_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/luxel/report)
+  set_property(SOURCE ${PROJECT_SOURCE_DIR}/bench/report/report.cpp TARGET_DIRECTORY luxel_report
+               APPEND PROPERTY COMPILE_DEFINITIONS LUXEL_SCRIPTS_FROM_BIN="${scripts_from_bin}")
 endif()

@@ -18,6 +18,15 @@ case $kind in
   static)
     run cmake --install "$build" --prefix "$prefix"
     tools=ON
+    # A report's page is made by scripts that lie beside the program, wherever that was moved to.
+    if [[ -x $prefix/bin/luxel ]]; then
+      rm -rf "$at/moved" "$at/report"
+      cp -r "$prefix" "$at/moved"
+      [[ -e $at/moved/share/luxel/report/plots.py ]] || { echo "the scripts of reports are not installed"; exit 1; }
+      echo 'import pathlib, sys; pathlib.Path(sys.argv[1], "from_prefix").touch()' >"$at/moved/share/luxel/report/render.py"
+      run "$at/moved/bin/luxel" report --quick --kernel mip_build --device cpu:float --only 'no such job' -o "$at/report"
+      [[ -e $at/report/from_prefix ]] || { echo "the installed program took scripts from elsewhere"; exit 1; }
+    fi
     ;;
   shared) options=(-DBUILD_SHARED_LIBS=ON "-DCMAKE_CXX_FLAGS=-fno-exceptions -fno-rtti") ;;
   opencl) options=(-DLUXEL_VULKAN=OFF) components="opencl;reference" ;;

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <luxel/plan.h>
@@ -56,7 +57,7 @@ bool read(std::string_view text, std::array<T, N>& to) {
 }
 
 /// What may be written for a value of a type.
-template <class T> std::string expected(const T&) {
+template <class T> std::string expected() {
   if constexpr (std::is_same_v<T, bool>) return "0 or 1";
   else if constexpr (std::is_same_v<T, int> || std::is_same_v<T, unsigned>) return "a whole number";
   else if constexpr (std::is_same_v<T, double>) return "a number";
@@ -80,10 +81,9 @@ struct Field {
 
 template <class Params, class Get>
 Field<Params> field(std::string name, Get get) {
-  Params sample{};
-  return {std::move(name), [get](Params& p, std::string_view text) { return read(text, get(p)); }, expected(get(sample)),
+  using T = std::remove_cvref_t<decltype(get(std::declval<Params&>()))>;
+  return {std::move(name), [get](Params& p, std::string_view text) { return read(text, get(p)); }, expected<T>(),
           [get](Params& p) -> std::string {
-            using T = std::remove_cvref_t<decltype(get(p))>;
             if constexpr (std::is_enum_v<T>) return std::string(Names<T>::of[static_cast<std::size_t>(get(p))]);
             else return {};
           }};

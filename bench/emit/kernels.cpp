@@ -57,6 +57,12 @@ NAMES(VoxelizeMerging, "exact", "moving_average", "last_write")
 
 namespace {
 
+// What a user wrote, in an error of one line.
+std::string printable(std::string text) {
+  for (char& c : text) c = c >= 32 && c < 127 ? c : '?';
+  return text;
+}
+
 template <class Params>
 Kernel make(std::string name, std::string folder, std::string variant, std::vector<std::string> sizes, std::vector<int> size,
             Params start, std::vector<Field<Params>> fields, std::function<void(Params&)> complete = {}) {
@@ -74,10 +80,10 @@ Kernel make(std::string name, std::string folder, std::string variant, std::vect
       if (!found) {
         std::string all;
         for (const auto& f : fields) all += (all.empty() ? "" : ", ") + f.name;
-        return Status(Code::invalid_argument, name + " has no option " + key + "; expected one of " + all);
+        return Status(Code::invalid_argument, name + " has no option " + printable(key) + "; expected one of " + all);
       }
       if (!found->set(p, value))
-        return Status(Code::invalid_argument, name + " option " + key + " is " + value + "; expected " + found->takes);
+        return Status(Code::invalid_argument, name + " option " + key + " is " + printable(value) + "; expected " + found->takes);
     }
     if (complete) complete(p);
     return plan(p, profile);

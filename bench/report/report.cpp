@@ -117,9 +117,19 @@ void measure(const Settings& s, const DeviceInfo& device, const std::string& nam
   progress.line(longest_jobs(gathered, device.id));
 }
 
+// Where the scripts lie: beside the program as it was installed (PREFIX/bin and PREFIX/share/luxel/report), so that a prefix
+// may be moved; else in the source tree that it was built from.
+std::string script_folder() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  const std::filesystem::path installed = program.parent_path() / LUXEL_SCRIPTS_FROM_BIN;
+  if (!error && std::filesystem::exists(installed / "render.py", error)) return installed.lexically_normal().string();
+  return LUXEL_SOURCE_DIR "/python/report";
+}
+
 // The page and the plots are made by Python; without it the numbers stand all the same.
 void render(const std::string& out) {
-  const std::string script = LUXEL_SOURCE_DIR "/python/report/render.py", log = out + "/render.log";
+  const std::string script = script_folder() + "/render.py", log = out + "/render.log";
   std::string why = "python3 is missing (Debian: apt-get install python3-matplotlib)";
   // Debian's own first: its packages are what is installed for this.
   for (std::vector<std::string> argv : {std::vector<std::string>{"/usr/bin/python3"}, {"/usr/bin/env", "python3"}}) {

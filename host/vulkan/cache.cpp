@@ -19,6 +19,13 @@ std::string hex(const std::uint8_t* bytes, std::size_t count) {
   return text;
 }
 
+// VkPipelineCacheHeaderVersionOne in integers: a file may hold a version that Vulkan's enumeration does not.
+struct CacheHeader {
+  std::uint32_t size, version, vendor, device;
+  std::uint8_t uuid[VK_UUID_SIZE];
+};
+static_assert(sizeof(CacheHeader) == sizeof(VkPipelineCacheHeaderVersionOne));
+
 }  // namespace
 
 std::string cache_path(const std::string& directory, const VkPhysicalDeviceProperties& driver,
@@ -29,13 +36,12 @@ std::string cache_path(const std::string& directory, const VkPhysicalDevicePrope
 }
 
 bool is_cache_of(const std::vector<std::uint8_t>& data, const VkPhysicalDeviceProperties& driver) {
-  VkPipelineCacheHeaderVersionOne header;
+  CacheHeader header;
   if (data.size() < sizeof header) return false;
   std::memcpy(&header, data.data(), sizeof header);
-  return header.headerSize >= sizeof header && header.headerSize <= data.size() &&
-         header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == driver.vendorID &&
-         header.deviceID == driver.deviceID &&
-         std::memcmp(header.pipelineCacheUUID, driver.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+  return header.size >= sizeof header && header.size <= data.size() &&
+         header.version == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendor == driver.vendorID &&
+         header.device == driver.deviceID && std::memcmp(header.uuid, driver.pipelineCacheUUID, VK_UUID_SIZE) == 0;
 }
 
 DiskCache::DiskCache(const Device::State& device, std::uint64_t module_hash) : device_(device.adopt.device) {
