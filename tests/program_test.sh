@@ -252,7 +252,7 @@ done
 render=("$luxel" render --method truth --size 16x9 --samples 2)
 expect 2 '--scene is required' "${render[@]}" -o a.png
 expect 2 '--out is required' "${render[@]}" --scene cornell
-expect 2 'scene cornel is not known; expected cornell, two_rooms, furnace, atrium, atrium:N, or a file' "${render[@]}" --scene cornel -o a.png
+expect 2 'scene cornel is not known; expected cornell, two_rooms, furnace, atrium, pillars, curtain, atrium:N, or a file' "${render[@]}" --scene cornel -o a.png
 expect 2 'scene atrium:7: 7 is no number of triangles; expected 5000\.\.500000' "${render[@]}" --scene atrium:7 -o a.png
 expect 2 'missing\.obj: does not exist; check the name' "${render[@]}" --scene missing.obj -o a.png
 expect 2 'folder\.npy: is not a file' "${render[@]}" --scene folder.npy -o a.png

@@ -125,7 +125,7 @@ TEST(BuiltIn, TheFurnaceIsClosed) {
 
 TEST(BuiltIn, UnknownNamesAreRefused) {
   EXPECT_EQ(scene_from("cornel").status().code(), Code::invalid_argument);
-  EXPECT_NE(scene_from("cornel").status().message().find("cornell, two_rooms, furnace, atrium"), std::string::npos);
+  EXPECT_NE(scene_from("cornel").status().message().find("cornell, two_rooms, furnace, atrium, pillars, curtain"), std::string::npos);
   for (const char* name :
        {"atrium:4999", "atrium:500001", "atrium:", "atrium:9e3", "atrium:-7", "cornell:3", "atrium:99999999999999"})
     EXPECT_EQ(scene_from(name).status().code(), Code::invalid_argument) << name;

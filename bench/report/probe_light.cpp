@@ -156,11 +156,15 @@ struct SceneSetting {
   int probes = 8;      // along the longest side
   int size = 32, irradiance = 8, distances = 16;
   bool visibility = true;
+  bool find_dead = true;
 };
 
+std::string variant(const SceneSetting& s) {
+  return std::string(s.visibility ? "filtered" : "plain") + (s.find_dead ? "" : ", dead probes count");
+}
+
 std::string label(const SceneSetting& s) {
-  return fmt::format("probe_shade {} {} probes, maps of {}, {}, {} in {}", s.visibility ? "filtered" : "plain", s.probes, s.size, s.irradiance,
-                     s.distances, s.place.name);
+  return fmt::format("probe_shade {} {} probes, maps of {}, {}, {} in {}", variant(s), s.probes, s.size, s.irradiance, s.distances, s.place.name);
 }
 
 scene::ProbeSceneSettings settings_of(const scene::Scene& scene, const SceneSetting& s, bool quick) {
@@ -170,6 +174,7 @@ scene::ProbeSceneSettings settings_of(const scene::Scene& scene, const SceneSett
   p.sky_samples = quick ? 16 : 64;
   p.filter.irradiance_size = s.irradiance;
   p.filter.moments_size = s.visibility ? s.distances : 0;
+  p.find_dead = s.find_dead;
   return p;
 }
 
@@ -180,10 +185,29 @@ std::vector<double> three(const std::vector<float>& four) {
   return v;
 }
 
+// Means of the three channels: what shadows receive over the truth there (receivers of less than a quarter of the mean), and the
+// share of the truth that the darkest twentieth of all receivers gets at most.
+struct Leaking {
+  double shadow = 0, pools = 0;
+};
+Leaking leaking(const Stage& stage, const std::vector<double>& x) {
+  double ours = 0, truth = 0;
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < stage.pixels.size(); ++i) {
+    double e = 0, t = 0;
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) e += x[c] / 3, t += (stage.t1[c] + stage.t2[c]) / 6;
+    if (t < stage.mean / 4) ours += e, truth += t;
+    shares.push_back(e / std::max(t, 1e-6 * stage.mean));
+  }
+  if (shares.empty()) return {};
+  std::nth_element(shares.begin(), shares.begin() + static_cast<std::ptrdiff_t>(shares.size() / 20), shares.end());
+  return {truth > 0 ? ours / truth : 0, shares[shares.size() / 20]};
+}
+
 // The same probes with finer maps: what is left are probes, their weights and the scene between them.
 Result<std::vector<double>> finest(Session& session, const Stage& stage, const SceneSetting& s) {
   static std::map<std::string, std::vector<double>> made;
-  std::vector<double>& x = made[fmt::format("{} {} {}", s.place.name, s.probes, s.visibility)];
+  std::vector<double>& x = made[fmt::format("{} {} {}", s.place.name, s.probes, variant(s))];
   if (!x.empty()) return x;
   SceneSetting fine = s;
   fine.size = 64, fine.irradiance = 32, fine.distances = 32;
@@ -219,11 +243,14 @@ Status measure_scene(Session& session, const SceneSetting& s) {
   }
   const std::vector<double> x = three(light.indirect);
   const Relative method = relative(x, x, stage.t1, stage.t2, stage.mean);
-  FrontierRow row{"probe_shade", s.visibility ? "filtered" : "plain", s.place.name, fmt::format("{} receivers", stage.pixels.size()),
+  FrontierRow row{"probe_shade", variant(s), s.place.name, fmt::format("{} receivers", stage.pixels.size()),
                   {{"format", "f16"}}, {{"probes", s.probes}, {"seen", s.size}, {"irradiance", s.irradiance}, {"distances", s.visibility ? s.distances : 0}},
                   "", {bounce_metric}};
   row.error.method = method.value;
   row.error.standard_error = method.error;
+  const Leaking leaks = leaking(stage, x);
+  row.knobs["shadow_energy"] = leaks.shadow;
+  row.knobs["darkest_twentieth"] = leaks.pools;
   if (!quick && !session.is_cpu()) {
     const auto fine = finest(session, stage, s);
     if (!fine) return fine.status();
@@ -340,6 +367,14 @@ std::vector<Job> probe_light_grid(Session& session, std::vector<std::string>& mi
     scene({place, 8, 32, 16, 16});
     scene({place, 8, 32, 8, 32});
   }
+  if (!quick && !session.is_cpu())
+    for (const char* name : {"pillars", "curtain"})
+      for (const int probes : {3, 6, 12})
+        for (const bool visibility : {false, true})
+          for (const bool find_dead : {true, false}) {
+            if (!find_dead && (probes != 3 || std::string(name) != "pillars")) continue;
+            scene({{fmt::format("{} (generated)", name), name, {{}, {}, 0}}, probes, 32, 8, 16, visibility, find_dead});
+          }
   for (const int count : quick || session.is_cpu() ? std::vector<int>{8} : std::vector<int>{4, 8, 12, 16})
     for (const bool visibility : {false, true})
       jobs.push_back({fmt::format("probe_shade leaks of {} probes, {}", count, visibility ? "filtered" : "plain"),

@@ -274,6 +274,49 @@ Status save(Session& session, const std::string& name, std::size_t rays, int siz
   return {};
 }
 
+// Three of ten runs of 256 rays have a direction, as where few pixels of a picture are glossy.
+Status save_matte(Session& session, const std::string& name, std::size_t rays, int size, const Count& count) {
+  const auto found = world_of(name, rays);
+  if (!found) return found.status();
+  const ProbeWorld& world = *found.value();
+  const auto f = field_of(name, world, size, count);
+  Values some = world.asked.rays;
+  const auto glossy = [](std::size_t ray) { return scene::random01(static_cast<std::uint32_t>(ray / 256), 23) < 0.3; };
+  for (std::size_t i = 0; i < rays; ++i)
+    if (!glossy(i)) std::fill_n(some.begin() + static_cast<std::ptrdiff_t>(8 * i + 4), 3, 0.0);
+  const auto a = ready(session, *f, compact(size), usual(), world.asked.rays), b = ready(session, *f, compact(size), usual(), some);
+  if (!a) return a.status();
+  if (!b) return b.status();
+  const auto pair = session.interleave(timed(a.value()), timed(b.value()), "left out: rays of matte pixels");
+  if (!pair) return pair.status();
+  std::vector<double> saved;
+  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const auto all = a.value()->read("hits"), few = b.value()->read("hits");
+  if (!all) return all.status();
+  if (!few) return few.status();
+  double traced = 0, different = 0;
+  for (std::size_t i = 0; i < rays; ++i) {
+    if (!glossy(i)) continue;
+    ++traced;
+    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
+      if (all.value()[k] != few.value()[k]) {
+        ++different;
+        break;
+      }
+  }
+  const double share = 1 - summarise(saved).median / summarise(pair.value().a).median;
+  session.row("left_out", {{"kernel", "octahedral_march"},
+                           {"scene", fmt::format("{} {}^2, {} probes", name, size, f->probes.size())},
+                           {"what", fmt::format("rays of pixels that are not glossy: {:.0f} % of the rays have a direction, {:.0f} % of the time is left",
+                                                100 * traced / static_cast<double>(rays), 100 * share)},
+                           {"level", 2},
+                           {"saved_ms", summarise(saved).median},
+                           {"saved_bytes", 0},
+                           {"error", different / std::max(traced, 1.0)},
+                           {"device", session.device()}});
+  return {};
+}
+
 void claim(Session& session, const std::string& text, const std::string& source, Json source_value, Json measured, Json q1, Json q3,
            bool confirmed, const std::string& reason) {
   session.row("reproduction", {{"claim", text},
@@ -456,6 +499,7 @@ std::vector<Job> probe_left_out(Session& session) {
   if (!quick) {
     jobs.push_back(job("outcome counters", 1));
     jobs.push_back(job("probes inside geometry", 2));
+    jobs.push_back({"octahedral_march left out: rays of matte pixels", [=, &session] { return save_matte(session, "cornell", rays, size, {2, 2, 2}); }});
   }
   return jobs;
 }

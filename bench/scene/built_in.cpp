@@ -1,4 +1,5 @@
 #include <charconv>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -75,9 +76,48 @@ Scene furnace() {
   return std::move(b.scene);
 }
 
+// A room of 6 x 3 x 6, open towards +z, with a lamp off its middle.
+void lit_room(MeshBuilder& b, std::uint32_t floor, std::uint32_t left, std::uint32_t right, std::uint32_t white, glm::dvec2 lamp_low,
+              glm::dvec2 lamp_high) {
+  const auto lamp = b.material({.name = "lamp", .base_color = {0, 0, 0}, .emission = {12, 11, 9}});
+  b.quad({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, floor);
+  ceiling(b, 3, {-3, -3}, {3, 3}, white, lamp_low, lamp_high, lamp);
+  b.quad({-3, 0, -3}, {6, 0, 0}, {0, 3, 0}, white);
+  b.quad({-3, 0, 3}, {0, 0, -6}, {0, 3, 0}, left);
+  b.quad({3, 0, -3}, {0, 0, 6}, {0, 3, 0}, right);
+  b.scene.camera = {{0, 1.8, 8.6}, {0, 1.4, 0}, 44};
+}
+
+// Pillars from floor to ceiling: two of them stand where a grid of 3 x 2 x 3 probes has some.
+Scene pillars() {
+  MeshBuilder b;
+  b.scene.name = "pillars";
+  const auto white = b.material({.name = "white", .base_color = {0.75, 0.75, 0.75}});
+  const auto red = b.material({.name = "red", .base_color = {0.7, 0.2, 0.15}});
+  const auto green = b.material({.name = "green", .base_color = {0.2, 0.6, 0.25}});
+  lit_room(b, white, red, green, white, {-1.6, 0.6}, {-0.8, 1.4});
+  for (const glm::dvec3 pillar : {glm::dvec3(0, 0, 0.6), glm::dvec3(2, -2, 0.5), glm::dvec3(-1, -1.3, 0.3), glm::dvec3(1.1, 1.3, 0.3)})
+    b.patch(32, 1, white, [&](double u, double v) {
+      const double angle = -2 * std::numbers::pi * u;
+      return glm::dvec3(pillar.x + pillar.z * std::cos(angle), 3 * v, pillar.y + pillar.z * std::sin(angle));
+    });
+  return std::move(b.scene);
+}
+
+// A cloth across the room: light of the other half comes beneath it and beside it.
+Scene curtain() {
+  MeshBuilder b;
+  b.scene.name = "curtain";
+  const auto white = b.material({.name = "white", .base_color = {0.75, 0.75, 0.75}});
+  const auto cloth = b.material({.name = "cloth", .base_color = {0.75, 0.55, 0.1}});
+  lit_room(b, white, white, white, white, {-2.4, -0.4}, {-1.6, 0.4});
+  b.block({0.49, 0.2, -3}, {0.51, 3, 2.6}, cloth);
+  return std::move(b.scene);
+}
+
 }  // namespace
 
-std::vector<std::string_view> built_in_names() { return {"cornell", "two_rooms", "furnace", "atrium"}; }
+std::vector<std::string_view> built_in_names() { return {"cornell", "two_rooms", "furnace", "atrium", "pillars", "curtain"}; }
 
 Result<Scene> built_in(const std::string& name) {
   const std::size_t colon = name.find(':');
@@ -95,6 +135,8 @@ Result<Scene> built_in(const std::string& name) {
   if (name == "two_rooms") return two_rooms();
   if (name == "furnace") return furnace();
   if (name == "atrium") return atrium(usual);
+  if (name == "pillars") return pillars();
+  if (name == "curtain") return curtain();
   return Status(Code::invalid_argument, fmt::format("scene {} is not known; expected {}, atrium:N, or a file", name,
                                                     fmt::join(built_in_names(), ", ")));
 }

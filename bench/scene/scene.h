@@ -112,6 +112,8 @@ std::vector<std::string_view> built_in_names();
 ///   furnace         a closed room with a block in it, every surface emitting 1 with albedo 1/2: radiance 2 everywhere
 ///   atrium[:N]      a columned hall with galleries, arches and hanging cloth, lit by sun and sky, in metres; at most N
 ///                   and at least 0.9 N triangles, N from 5000 to 500000, default 50000
+///   pillars         a room of 6 x 3 x 6, open towards +z, four pillars, two of them around places of 3 x 2 x 3 probes
+///   curtain         the same room, half of it behind a cloth that light passes beneath and beside
 /// Errors: invalid_argument, naming what there is.
 Result<Scene> built_in(const std::string& name);
 
