@@ -206,10 +206,12 @@ std::vector<Job> cone_grid(Session& session) {
   const std::vector<std::string> sets =
       quick ? std::vector<std::string>{"1", "6", "classic 6", "16"}
             : std::vector<std::string>{"1", "4", "5", "6", "classic 6", "8", "9", "16", "25"};
+  // The errors of C++ are the devices'; its times show how sets differ, and that is all that is asked of it.
+  const bool few = quick || session.is_cpu();
   for (const ConeVariant v : {ConeVariant::isotropic, ConeVariant::anisotropic}) {
     for (const std::string& set : sets)
-      for (const double footprint : !quick ? std::vector{0.125, 0.25, 0.5, 1.0} : set == "6" ? std::vector{0.25, 1.0} : std::vector{0.25})
-        for (const double step : quick ? std::vector{1.0} : std::vector{0.5, 1.0, 2.0}) {
+      for (const double footprint : !few ? std::vector{0.125, 0.25, 0.5, 1.0} : set == "6" ? std::vector{0.25, 1.0} : std::vector{0.25})
+        for (const double step : few ? std::vector{1.0} : std::vector{0.5, 1.0, 2.0}) {
           ConeSetting s = setting_for(box, v, Format::f32x4, set);
           s.params.footprint = footprint;
           s.params.step_scale = step;

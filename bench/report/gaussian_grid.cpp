@@ -32,7 +32,7 @@ class Grid {
       add(scene, separable, k, metric);
       // Interpolating in C++ costs many times the reading of a texel.
       const bool sampled =
-          quick_ ? k == 3 && separable.radius <= 12 : separable.radius <= (session_.is_cpu() ? 12 : 64);
+          quick_ || session_.is_cpu() ? k == 3 && separable.radius <= 12 : separable.radius <= 64;
       if (sampled) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
       GaussianBlurParams image = separable;
       image.input = Input::image;
@@ -125,7 +125,7 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
       grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
     for (const double k : some_ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
-      if (!quick)
+      if (!quick && !session.is_cpu())
         grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1, GaussianVariant::sampler), k,
                  BlurMetric::half_l1);
     }
@@ -141,7 +141,7 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   for (const Format format : formats_at_4)
     for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
       for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
-        if (variant == GaussianVariant::separable || !quick)
+        if (variant == GaussianVariant::separable || !(quick || session.is_cpu()))
           grid.add(small, params_for(*small, 4, k, format, variant), k);
   for (const Border border : {Border::mirror, Border::wrap, Border::zero}) {
     if (quick) continue;
