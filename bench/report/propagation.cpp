@@ -160,8 +160,9 @@ Status measure(Session& session, const LpvPropagateParams& p) {
 }
 
 // `more` makes what `fewer` leaves out; `error`: how many values of fewer's result differ.
+// `shares`: `what` ends with the share of the time that is left.
 Status compare(Session& session, const std::string& what, int level, const LpvPropagateParams& more, const Values& light_more,
-               const LpvPropagateParams& fewer, const Values& light_fewer) {
+               const LpvPropagateParams& fewer, const Values& light_fewer, bool shares = false) {
   const Values nothing = more.geometry ? Values(4 * lpv_geometry_pixels(more.grid), 0) : Values();
   const auto a = ready(session.context(), more, light_more, nothing), b = ready(session.context(), fewer, light_fewer);
   if (!a) return a.status();
@@ -178,13 +179,24 @@ Status compare(Session& session, const std::string& what, int level, const LpvPr
   kept.resize(std::min(kept.size(), y.value().size()));
   session.row("left_out", {{"kernel", "light_propagation"},
                            {"scene", fmt::format("{0}x{0}x{0}", fewer.grid.extent[0])},
-                           {"what", what},
+                           {"what", shares ? fmt::format("{}, {:.0f} % of the time is left", what, 100 * summarise(ratios(pair.value().b, pair.value().a)).median) : what},
                            {"level", level},
                            {"saved_ms", summarise(saved).median},
                            {"saved_bytes", a.value()->plan().bytes - b.value()->plan().bytes},
                            {"error", cases::count_different(kept, y.value())},
                            {"device", session.device()}});
   return {};
+}
+
+// The share of a cube's cells that a light in its middle has reached, mean over the steps' ends: one ring of faces a step.
+double lit_share(int side, int steps) {
+  double lit = 0;
+  const int middle = side / 2;
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        lit += std::max(0, steps - std::max(1, std::abs(x - middle) + std::abs(y - middle) + std::abs(z - middle)) + 1);
+  return lit / steps / (static_cast<double>(side) * side * side);
 }
 
 Json row_of(Session& session, const std::string& peer, const LpvPropagateParams& p, const Session::Pair& pair, double scale, Json goal) {
@@ -284,6 +296,18 @@ std::vector<Job> propagation_left_out(Session& session) {
   LpvPropagateParams active = one, ended = one;
   active.active = ended.active = true, ended.error = 0.01;
   pair("cells that no light has reached (one light, 8 steps)", 2, one, active);
+  if (!session.settings().quick)
+    for (const int steps : {2, 8, 32}) {
+      LpvPropagateParams all = setting(64, LpvLobes::linear, 2, Format::f32x4, steps);
+      all.channels = 1;
+      LpvPropagateParams lit = all;
+      lit.active = true;
+      jobs.push_back({fmt::format("light_propagation left out: dark cells of 64^3, {} steps", steps), [&session, all, lit, steps] {
+                        return compare(session, fmt::format("cells that no light has reached (one light, {} steps, {:.2g} % of all cells lit)", steps,
+                                                            100 * lit_share(64, steps)),
+                                       2, all, point_light(all), lit, point_light(lit), true);
+                      }});
+    }
   one.iterations = ended.iterations = 64;
   pair("steps after the largest coefficient fell to 1 % (one light, at most 64 steps)", 2, one, ended);
   return jobs;
