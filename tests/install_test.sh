@@ -67,3 +67,16 @@ if [[ $kind == opencl ]]; then
   ! cmake -S "$root/tests/consumer" -B "$at/refused" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_COMPONENTS=vulkan >"$at/log.txt" 2>&1
   grep -q 'built without vulkan' "$at/log.txt" || { cat "$at/log.txt"; exit 1; }
 fi
+# The first kernel of docs/first_kernel.md: with the installed library, and from emitted files.
+if [[ $kind == static && -x $prefix/bin/luxel ]]; then
+  mine=$at/first_kernel expected='middle 0.009982, sum 1.000000'
+  rm -rf "$mine"
+  run cmake -G Ninja -S "$root/examples/first_kernel" -B "$mine" -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
+  run cmake --build "$mine"
+  run "$prefix/bin/luxel" emit gaussian_blur --size 256x256 --options sigma=4 --format cpp -o "$mine/blur"
+  run g++ -std=c++17 -O2 -Wall -Wextra -Werror -I"$mine" "$root/examples/first_kernel/emitted.cpp" -o "$mine/emitted"
+  for program in first_kernel emitted; do
+    printed=$(cd "$mine" && "./$program") || exit 1
+    [[ $printed == "$expected" ]] || { echo "$program printed: $printed"; exit 1; }
+  done
+fi

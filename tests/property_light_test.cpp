@@ -111,7 +111,7 @@ TEST(PropertyOfLight, EvenProbesLightEvenly) {
             const auto lit = shade(cpu(), s.shade, {maps.value().irradiance, maps.value().moments, positions}, random_receivers(s.shade.grid, 12, seed));
             if (!lit) return lit.status().message();
             for (std::size_t i = 0; i < 12; ++i) {
-              if (lit.value().irradiance[4 * i] == 0) continue;  // all probes of its cage are dead
+              if (c[3] != 0 && lit.value().irradiance[4 * i] == 0) continue;  // all probes of its cage are dead
               for (std::size_t k = 0; k < 3; ++k) {
                 const double off = std::fabs(lit.value().irradiance[4 * i + k] / (pi * light) - 1);
                 if (!(off <= mean_rounding)) return "receiver " + std::to_string(i) + " is off by " + std::to_string(off);
