@@ -316,7 +316,10 @@ FN void trace_ray(CTX, int i) {
                     ++tried;
                     ++asked;
                     texel_probe = probe;
-                    found = ask(ctx, probe, origin - vec3(place.x, place.y, place.z), d, found.y, reach, begin, int(found.w));
+                    const float before = found.y;
+                    found = ask(ctx, probe, origin - vec3(place.x, place.y, place.z), d, before, reach, begin, int(found.w));
+                    // Rounding must not lead back into the cage before, where asking would begin anew, without end.
+                    if (int(found.x) == UNKNOWN) found.y = max(found.y, before);
                 }
             }
             // Nobody sees on: the last occluder counts as hit.

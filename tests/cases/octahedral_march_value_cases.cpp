@@ -112,6 +112,37 @@ Case all_hidden(ProbeOrder order) {
           }};
 }
 
+// Knowledge ends a rounding this side or that of the plane between two cages: a ray must not go back into the one that it left.
+Case between_cages() {
+  return {"", "all hidden between two cages", "no ray asks more than two cages' probes (rays that do)", 0, [](Context& context) -> Result<double> {
+            ProbeGrid g;
+            g.count = {3, 3, 3};
+            g.spacing = {0.7, 0.9, 1.1};
+            g.origin = {-0.73, 3.19, -1.37};
+            auto scene = ProbeScene::make(context, maps(), g, texel_values(size, 27, [](int, const Vec&, Vec&) { return 0.03125; }));
+            if (!scene) return scene.status();
+            std::vector<Ray> rays = random_rays(4000, 0.5);
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+              Ray& r = rays[i];
+              double length = 0;
+              for (const double v : r.direction) length += v * v;
+              r.begin = 0.25 + 4 * u(static_cast<int>(i) + 17);
+              for (std::size_t k = 0; k < 3; ++k) {
+                const double at = k == i % 3 ? 1 : 0.4 + 0.3 * u(static_cast<int>(3 * i + k) + 5);
+                r.origin[k] = g.origin[k] + at * g.spacing[k] - r.begin * r.direction[k] / std::sqrt(length);
+              }
+            }
+            const auto t = scene.value().trace({}, ray_values(rays));
+            if (!t) return t.status();
+            double more = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+              if (t.value().outcome(i) != ProbeOutcome::assumed && t.value().outcome(i) != ProbeOutcome::degenerate) return nan;
+              more += t.value().hits[4 * i + 2] > 16;
+            }
+            return more;
+          }};
+}
+
 // Who is asked k-th, known by whose texel ends knowledge after k tries: (i + 3) mod 8, or i xor 7, 6, 7, 5, 7, 6, 7.
 Case order_of_probes(ProbeOrder order) {
   return {"", fmt::format("order of a cage's probes, {}", order == ProbeOrder::plus3 ? "plus3" : "farthest"),
@@ -429,6 +460,7 @@ void add_probe_value_cases(std::vector<Case>& cases) {
   for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(all_hidden(order));
   for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(one_open(order));
   for (const ProbeOrder order : {ProbeOrder::plus3, ProbeOrder::farthest}) cases.push_back(order_of_probes(order));
+  cases.push_back(between_cages());
   cases.push_back(in_geometry());
   cases.push_back(all_dead());
   cases.push_back(on_surface());
