@@ -20,7 +20,7 @@ def known(kind, types):
 
 
 def comment_of(line):
-    return line.split("//", 1)[1].lstrip("/ ").strip() if "//" in line else ""
+    return line.split("//", 1)[1].lstrip("/< ").strip() if "//" in line else ""
 
 
 def enums_of(text):
@@ -68,7 +68,7 @@ def quoted(text):
 
 def main(include, out):
     headers = [path for path in sorted((include / "luxel").glob("*.h")) if path.stem not in NOT_KERNELS]
-    texts = [path.read_text() for path in headers]
+    texts = [re.sub(r"\n +///< ", " ", path.read_text()) for path in headers]  # comments that go on below their line
     enums = [enum for text in texts for enum in enums_of(text)]
     structs = [struct for text in texts for struct in structs_of(text)]
     types = {name.split("::")[-1] for name, _, _ in enums} | {name for name, _ in structs}

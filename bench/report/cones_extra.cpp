@@ -26,8 +26,7 @@ Status compare(Session& session, const ConeSetting& more, const ConeSetting& few
   const auto pair =
       session.interleave(timed(a.value(), more.params), timed(b.value(), fewer.params), "left out: " + what);
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   const Result<Values> x = a.value()->read("irradiance"), y = b.value()->read("irradiance");
   if (!x) return x.status();
   if (!y) return y.status();
@@ -41,7 +40,7 @@ Status compare(Session& session, const ConeSetting& more, const ConeSetting& few
                            {"scene", fmt::format("{} {}", fewer.world->name, fewer.world->side)},
                            {"what", what},
                            {"level", level},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", bytes(more, *a.value()) - bytes(fewer, *b.value())},
                            {"error", most},
                            {"device", session.device()}});

@@ -156,12 +156,11 @@ Result<Pair> compared(Session& session, const Setting& first, const Setting& sec
   }
   const auto times = session.interleave(timed(runs[0]), timed(runs[1]), "left out: " + what);
   if (!times) return times.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < times.value().a.size(); ++i) saved.push_back(times.value().a[i] - times.value().b[i]);
+  const Sample saved = summarise(differences(times.value().a, times.value().b));
   auto a = runs[0]->read("dst"), b = runs[1]->read("dst");
   if (!a) return a.status();
   if (!b) return b.status();
-  return Pair{std::move(a).value(), std::move(b).value(), summarise(saved).median,
+  return Pair{std::move(a).value(), std::move(b).value(), saved.median,
               static_cast<double>(runs[0]->plan().bytes) - static_cast<double>(runs[1]->plan().bytes)};
 }
 

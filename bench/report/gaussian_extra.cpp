@@ -43,8 +43,7 @@ Status compare(Session& session, const BlurSetting& more, const BlurSetting& few
   if (!first) return first.status();
   const auto second = result_of(session, fewer);
   if (!second) return second.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   const Profile& profile = session.context().profile();
   const Result<Plan> plan_more = plan(more.params, profile), plan_fewer = plan(fewer.params, profile);
   // With fewer channels there is nothing to compare: what is left is filtered as before.
@@ -53,7 +52,7 @@ Status compare(Session& session, const BlurSetting& more, const BlurSetting& few
   double full_scale = 0;
   for (const double v : in_format(*more.scene, more.params.format)) full_scale = std::fmax(full_scale, std::fabs(v));
   error /= full_scale;
-  left_out(session, fewer, what, level, summarise(saved).median, plan_more.value().bytes - plan_fewer.value().bytes,
+  left_out(session, fewer, what, level, saved.median, plan_more.value().bytes - plan_fewer.value().bytes,
            error);
   return {};
 }
@@ -79,9 +78,8 @@ Status skipped_pass(Session& session) {
   };
   const auto pair = session.interleave(twice, one.value(), "left out: a pass of radius 0");
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
-  left_out(session, once, "a pass of radius 0 is skipped", 3, summarise(saved).median, 2.0 * 16 * 960 * 540, 0);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
+  left_out(session, once, "a pass of radius 0 is skipped", 3, saved.median, 2.0 * 16 * 960 * 540, 0);
   return {};
 }
 

@@ -26,8 +26,7 @@ Status compare(Session& session, const MipSetting& more, const MipSetting& fewer
   if (!b) return b.status();
   const auto pair = session.interleave(timed(a.value()), timed(b.value()), "left out: " + what);
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   double different = 0;
   if (same_values)
     for (const std::string& name : cases::mip_names(fewer.params)) {
@@ -40,7 +39,7 @@ Status compare(Session& session, const MipSetting& more, const MipSetting& fewer
                            {"scene", fewer.scene->name + " " + size_text(fewer.scene->extent)},
                            {"what", what},
                            {"level", level},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", mip_bytes(session, more) - mip_bytes(session, fewer)},
                            {"error", different},
                            {"device", session.device()}});

@@ -113,8 +113,7 @@ Status compare(Session& session, const char* kernel, World& w, const Result<Shar
   if (!fewer) return fewer.status();
   const auto pair = session.interleave(more.value(), fewer.value(), fmt::format("{} left out: {}", kernel, what));
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   Values x[2];
   for (const int k : {0, 1}) {
     if (const auto ms = (k == 0 ? more : fewer).value()(); !ms) return ms.status();
@@ -133,7 +132,7 @@ Status compare(Session& session, const char* kernel, World& w, const Result<Shar
                            {"scene", "atrium (generated)"},
                            {"what", what},
                            {"level", level},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", saved_bytes},
                            {"error", sum > 0 ? std::sqrt(squares / n) / (sum / n) : 0},
                            {"device", session.device()}});

@@ -253,8 +253,7 @@ Status save(Session& session, const std::string& name, std::size_t rays, int siz
   if (!b) return b.status();
   const auto pair = session.interleave(timed(a.value()), timed(b.value()), "left out: " + what);
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   double shares[2];
   for (int k = 0; k < 2; ++k) {
     const auto& run = k == 0 ? a.value() : b.value();
@@ -267,7 +266,7 @@ Status save(Session& session, const std::string& name, std::size_t rays, int siz
                            {"scene", fmt::format("{} {}^2, {} probes", name, size, f->probes.size())},
                            {"what", fmt::format("{} ({:.3f} of the rays end elsewhere than Embree's, with it {:.3f})", what, shares[1], shares[0])},
                            {"level", level},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", static_cast<double>(a.value()->memory_bytes()) - static_cast<double>(b.value()->memory_bytes())},
                            {"error", std::max(0.0, shares[1] - shares[0])},
                            {"device", session.device()}});
@@ -289,8 +288,7 @@ Status save_matte(Session& session, const std::string& name, std::size_t rays, i
   if (!b) return b.status();
   const auto pair = session.interleave(timed(a.value()), timed(b.value()), "left out: rays of matte pixels");
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   const auto all = a.value()->read("hits"), few = b.value()->read("hits");
   if (!all) return all.status();
   if (!few) return few.status();
@@ -298,19 +296,16 @@ Status save_matte(Session& session, const std::string& name, std::size_t rays, i
   for (std::size_t i = 0; i < rays; ++i) {
     if (!glossy(i)) continue;
     ++traced;
-    for (std::size_t k = 4 * i; k < 4 * i + 4; ++k)
-      if (all.value()[k] != few.value()[k]) {
-        ++different;
-        break;
-      }
+    const auto hit = [i](const Values& v) { return v.begin() + static_cast<std::ptrdiff_t>(4 * i); };
+    different += !std::equal(hit(all.value()), hit(all.value()) + 4, hit(few.value()));
   }
-  const double share = 1 - summarise(saved).median / summarise(pair.value().a).median;
+  const Sample share = summarise(ratios(pair.value().b, pair.value().a));
   session.row("left_out", {{"kernel", "octahedral_march"},
                            {"scene", fmt::format("{} {}^2, {} probes", name, size, f->probes.size())},
                            {"what", fmt::format("rays of pixels that are not glossy: {:.0f} % of the rays have a direction, {:.0f} % of the time is left",
-                                                100 * traced / static_cast<double>(rays), 100 * share)},
+                                                100 * traced / static_cast<double>(rays), 100 * share.median)},
                            {"level", 2},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", 0},
                            {"error", different / std::max(traced, 1.0)},
                            {"device", session.device()}});
@@ -479,7 +474,8 @@ std::vector<Job> probe_grid(Session& session) {
   std::vector<std::string> names{"cornell", "two_rooms", "atrium"};
   if (!sponza().empty()) names.push_back("sponza");
   for (const std::string& name : names) {
-    const Count few = name == "sponza" ? Count{4, 2, 4} : Count{2, 2, 2}, many = name == "sponza" ? Count{6, 3, 6} : Count{4, 4, 4};  // of Sponza: what fits 128 MiB, lavapipe's largest buffer
+    // As many in Sponza as lavapipe's largest buffer holds, 128 MiB.
+    const Count few = name == "sponza" ? Count{4, 2, 4} : Count{2, 2, 2}, many = name == "sponza" ? Count{6, 3, 6} : Count{4, 4, 4};
     for (const int size : {64, 256, 1024}) add(name, size, few, true);
     for (const Count& count : {Count{1, 1, 1}, many}) add(name, 256, count, true);
     add(name, 256, few, false);

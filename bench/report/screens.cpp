@@ -196,15 +196,14 @@ Status tiles(Session& session, int width, int height) {
   if (!b) return b.status();
   const auto pair = session.interleave(timed(a.value()), timed(b.value()), "left out: tiles that do not reflect");
   if (!pair) return pair.status();
-  std::vector<double> saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   const Sample share = summarise(ratios(pair.value().b, pair.value().a));
   session.row("left_out", {{"kernel", "hiz_ssr"},
                            {"scene", fmt::format("atrium {}x{}", width, height)},
                            {"what", fmt::format("tiles that do not reflect; {:.0f} % of the pixels do, and cost {:.0f} % of all", 100 * part / all_rays,
                                                 100 * share.median)},
                            {"level", 2},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", 0},
                            {"error", 0},
                            {"device", session.device()}});
@@ -214,15 +213,14 @@ Status tiles(Session& session, int width, int height) {
   if (!whole) return whole.status();
   const auto launches = session.interleave(timed(whole.value()), timed(b.value()), "left out: workgroups that a list has no tiles for");
   if (!launches) return launches.status();
-  saved.clear();
-  for (std::size_t i = 0; i < launches.value().a.size(); ++i) saved.push_back(launches.value().a[i] - launches.value().b[i]);
+  const Sample of_launches = summarise(differences(launches.value().a, launches.value().b));
   const Sample of_fixed = summarise(ratios(launches.value().b, launches.value().a));
   session.row("left_out", {{"kernel", "hiz_ssr"},
                            {"scene", fmt::format("atrium {}x{}", width, height)},
                            {"what", fmt::format("workgroups that the list has no tiles for (indirect dispatch); the frame costs {:.1f} % of a fixed launch",
                                                 100 * of_fixed.median)},
                            {"level", 2},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", of_launches.median},
                            {"saved_bytes", 0},
                            {"error", 0},
                            {"device", session.device()}});

@@ -27,4 +27,10 @@ std::vector<double> ratios(const std::vector<double>& a, const std::vector<doubl
   return r;
 }
 
+std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> d;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) d.push_back(a[i] - b[i]);
+  return d;
+}
+
 }  // namespace luxel::report

@@ -18,5 +18,7 @@ Json to_json(const Sample& sample);
 
 /// a[i] / b[i].
 std::vector<double> ratios(const std::vector<double>& a, const std::vector<double>& b);
+/// a[i] - b[i].
+std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace luxel::report

@@ -245,13 +245,12 @@ Status left_out(Session& session, const Setting& more, const Setting& fewer, con
   for (std::size_t i = 0; i < x.value().size(); i += 4)
     for (std::size_t k = 0; k < 4 && x.value()[i + 3] > 0; ++k)
       if (const double v = std::fabs(x.value()[i + k] - y.value()[i + k]); !(v <= error)) error = v;
-  Values saved;
-  for (std::size_t i = 0; i < pair.value().a.size(); ++i) saved.push_back(pair.value().a[i] - pair.value().b[i]);
+  const Sample saved = summarise(differences(pair.value().a, pair.value().b));
   session.row("left_out", {{"kernel", "voxelize"},
                            {"scene", fewer.scene->name + " " + size_text(*fewer.scene)},
                            {"what", what},
                            {"level", level},
-                           {"saved_ms", summarise(saved).median},
+                           {"saved_ms", saved.median},
                            {"saved_bytes", a.value()->plan().bytes - b.value()->plan().bytes},
                            {"error", error},
                            {"device", session.device()}});

@@ -1,27 +1,29 @@
-// probe_irradiance: from what probes see (octahedral maps of radiance and distance) to what probe_shade looks up: irradiance for
-// every normal, and mean and standard deviation of the distance around every direction (McGuire et al., Real-Time Global
-// Illumination using Precomputed Light Field Probes, 2017, 5.2).
+/// \file
+/// probe_irradiance: from what probes see (octahedral maps of radiance and distance) to what probe_shade looks up: irradiance for
+/// every normal, and mean and standard deviation of the distance around every direction (McGuire et al., Real-Time Global
+/// Illumination using Precomputed Light Field Probes, 2017, 5.2).
 #pragma once
 #include <luxel/octahedral_march.h>
 
 namespace luxel {
 
+/// Maps to look up are made from what probes see.
 struct ProbeIrradianceParams {
-  ProbeGrid grid;                 // how many probes, 65535 at most, and the diagonal of a cage, probe_unit()
-  ProbeMaps maps;                 // size and formats of what the probes see; the minimum and normals are not read
-  int listed = 0;                 // probes that are made, 1..65535: those whose numbers are in `list`, each at most once;
-                                  // all others stay as they are. 0: all are made, and there is no list
-  int samples = 0;                // the maps are first averaged down to this size, by solid angle: even, 4..64, a divisor of
-                                  // theirs; 0: the largest one up to 32
-  int irradiance_size = 16;       // of the maps of irradiance, without their border, 4..128; 0: not wanted
-  int moments_size = 16;          // of the maps of distance, without their border, 4..128; 0: not wanted
-  int power = 64;                 // of the cosine around a direction whose distance is meant, 1..256
-  double max_distance = 1.5;      // diagonals of a cage, 1e-6..65504: what is farther counts as this
-  Format irradiance_format = Format::f16x4;  // f32x4, f16x4
-  Format moments_format = Format::f16x2;     // f32x2, f16x2
-  bool previous = false;          // maps are blended with those of before
-  double hysteresis = 0.98;       // part of these that stays, 0..1. In half floats a map may stop 2^-11 / (1 -
-                                  // hysteresis) of its value short: 2.4 % at 0.98
+  ProbeGrid grid;                 ///< how many probes, 65535 at most, and the diagonal of a cage, probe_unit()
+  ProbeMaps maps;                 ///< size and formats of what the probes see; the minimum and normals are not read
+  int listed = 0;                 ///< probes that are made, 1..65535: those whose numbers are in `list`, each at most once;
+                                  ///< all others stay as they are. 0: all are made, and there is no list
+  int samples = 0;                ///< the maps are first averaged down to this size, by solid angle: even, 4..64, a divisor of
+                                  ///< theirs; 0: the largest one up to 32
+  int irradiance_size = 16;       ///< of the maps of irradiance, without their border, 4..128; 0: not wanted
+  int moments_size = 16;          ///< of the maps of distance, without their border, 4..128; 0: not wanted
+  int power = 64;                 ///< of the cosine around a direction whose distance is meant, 1..256
+  double max_distance = 1.5;      ///< diagonals of a cage, 1e-6..65504: what is farther counts as this
+  Format irradiance_format = Format::f16x4;  ///< f32x4, f16x4
+  Format moments_format = Format::f16x2;     ///< f32x2, f16x2
+  bool previous = false;          ///< maps are blended with those of before
+  double hysteresis = 0.98;       ///< part of these that stays, 0..1. In half floats a map may stop 2^-11 / (1 -
+                                  ///< hysteresis) of its value short: 2.4 % at 0.98
 };
 
 /// Resources of the plan:
@@ -35,6 +37,7 @@ struct ProbeIrradianceParams {
 /// - `previous_irradiance`, `previous_moments` (previous): like these. What is not finite counts as absent.
 /// Errors: invalid_argument, naming field, value and range.
 Status validate(const ProbeIrradianceParams& params);
+/// The passes that do it on a device of this profile. Errors: as validate.
 Result<Plan> plan(const ProbeIrradianceParams& params, const Profile& profile);
 
 /// The size that maps are averaged down to. `params` must be valid.

@@ -1,4 +1,5 @@
-// Running luxel plans as C++ on this CPU, in float (the devices' bits) or in double (the oracle).
+/// \file
+/// Running luxel plans as C++ on this CPU, in float (the devices' bits) or in double (the oracle).
 #pragma once
 #include <array>
 #include <cstddef>
@@ -7,6 +8,7 @@
 
 #include <luxel/plan.h>
 
+/// Plans as C++ on this CPU.
 namespace luxel::reference {
 
 /// real32: floats and storage formats as on a device. real64: the same source in double; every pixel
@@ -15,9 +17,9 @@ enum class Precision { real32, real64 };
 
 /// One resource of a plan. Images: texels tightly packed, row after row, slice after slice.
 struct Binding {
-  std::string_view name;
-  void* data = nullptr;
-  std::size_t bytes = 0;
+  std::string_view name;  ///< of the resource, or `scratch`
+  void* data = nullptr;  ///< aligned to 16 bytes
+  std::size_t bytes = 0;  ///< that `data` holds
 };
 
 /// Runs the plan on `threads` threads (0: all cores). Scratch comes from the heap unless bound as `scratch`

@@ -1,4 +1,5 @@
-// Running luxel plans on Vulkan compute. Borrows every handle; owns only pipelines, layouts and linear samplers.
+/// \file
+/// Running luxel plans on Vulkan compute. Borrows every handle; owns only pipelines, layouts and linear samplers.
 #pragma once
 #include <vulkan/vulkan_core.h>
 
@@ -9,18 +10,20 @@
 
 #include <luxel/plan.h>
 
+/// Plans on Vulkan, in the caller's command buffers.
 namespace luxel::vulkan {
 
 /// A device of the caller's (Vulkan 1.1 or newer). Vulkan cannot be asked what was enabled, so the caller says it.
 struct Adopt {
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  bool push_descriptor = false;   // VK_KHR_push_descriptor is enabled
-  bool debug_utils = false;       // VK_EXT_debug_utils is enabled on the instance
-  std::string cache_directory;    // pipeline cache; empty: none on disk
+  VkInstance instance = VK_NULL_HANDLE;  ///< that the device is of
+  VkPhysicalDevice physical = VK_NULL_HANDLE;  ///< that the device is of
+  VkDevice device = VK_NULL_HANDLE;  ///< what is borrowed
+  bool push_descriptor = false;   ///< VK_KHR_push_descriptor is enabled
+  bool debug_utils = false;       ///< VK_EXT_debug_utils is enabled on the instance
+  std::string cache_directory;    ///< pipeline cache; empty: none on disk
 };
 
+/// A borrowed device and the kernels that were compiled for it. Copies share both.
 class Device {
  public:
   /// Borrow a device, which must outlive the result and every Pipeline made with it. Compiled kernels are kept until
@@ -28,29 +31,30 @@ class Device {
   /// extension that is not enabled; unsupported; out_of_memory.
   static Result<Device> adopt(const Adopt& info);
 
-  const Profile& profile() const;
-  const std::string& name() const;          // as the driver reports it
-  const std::string& driver() const;        // driver name and version
+  const Profile& profile() const;  ///< what the device is fast at
+  const std::string& name() const;          ///< as the driver reports it
+  const std::string& driver() const;        ///< driver name and version
 
   struct State;
-  std::shared_ptr<State> state;
+  std::shared_ptr<State> state;  ///< opaque; shared by copies
 };
 
 /// One resource of a plan, or `scratch`. Exactly one of buffer and view is set, as the resource's kind asks.
 struct Binding {
-  std::string_view name;
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceSize offset = 0;                  // a multiple of the device's alignment: 256 always is
-  VkDeviceSize bytes = 0;                   // available from offset
-  VkImageView view = VK_NULL_HANDLE;
-  VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
+  std::string_view name;  ///< of the resource, or `scratch`
+  VkBuffer buffer = VK_NULL_HANDLE;  ///< usage STORAGE_BUFFER
+  VkDeviceSize offset = 0;                  ///< a multiple of the device's alignment: 256 always is
+  VkDeviceSize bytes = 0;                   ///< available from offset
+  VkImageView view = VK_NULL_HANDLE;  ///< of all the image, identity swizzle
+  VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;  ///< that the image is in
 };
 
+/// Options of Pipeline::record.
 struct Record {
-  VkDescriptorPool pool = VK_NULL_HANDLE;   // needed where push descriptors were not named: a set a pass is allocated
-  VkQueryPool timestamps = VK_NULL_HANDLE;  // optional: passes + 1 queries from first_query on, already reset
-  std::uint32_t first_query = 0;
-  bool tables_current = false;              // scratch still holds this pipeline's tables from an earlier record
+  VkDescriptorPool pool = VK_NULL_HANDLE;   ///< needed where push descriptors were not named: a set a pass is allocated
+  VkQueryPool timestamps = VK_NULL_HANDLE;  ///< optional: passes + 1 queries from first_query on, already reset
+  std::uint32_t first_query = 0;  ///< of `timestamps`
+  bool tables_current = false;              ///< scratch still holds this pipeline's tables from an earlier record
   /// The buffers that counts() names were made with the usage INDIRECT_BUFFER (Vulkan cannot be asked): passes along a list
   /// whose length is found on the device are dispatched with no more workgroups than it needs. False: by a fixed number.
   bool indirect = false;
@@ -64,7 +68,7 @@ class Pipeline {
   /// Compiles everything. Errors: unsupported (names the limit), compile_failed, out_of_memory.
   static Result<Pipeline> create(const Device& device, Plan plan);
 
-  const Plan& plan() const;
+  const Plan& plan() const;  ///< what it was made from
 
   /// What one record takes out of Record::pool, beside one set a pass. Empty with push descriptors.
   const std::vector<VkDescriptorPoolSize>& pool_sizes() const;
@@ -89,7 +93,7 @@ class Pipeline {
   Status record(VkCommandBuffer commands, const std::vector<Binding>& bindings, const Record& options = {}) const;
 
   struct State;
-  std::shared_ptr<State> state;
+  std::shared_ptr<State> state;  ///< opaque; shared by copies
 };
 
 }  // namespace luxel::vulkan

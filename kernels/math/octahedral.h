@@ -27,19 +27,3 @@ FN vec2 octahedral_centre(int x, int y, int size) {
 }
 FN int octahedral_texel(float u, int size) { return clamp(int(floor((u + 1.0f) * (0.5f * float(size)))), 0, size - 1); }
 FN ivec2 octahedral_texels(vec2 p, int size) { return ivec2(octahedral_texel(p.x, size), octahedral_texel(p.y, size)); }
-
-// The texel that lies beyond the border: for x and y from -1 to size, that which shares the edge (or the corner) on the
-// sphere. Every edge is met again mirrored at its middle; all four corners are -z.
-FN ivec2 octahedral_beyond(int x, int y, int size) {
-    int to_x = x;
-    int to_y = y;
-    if (x < 0 || x >= size) {
-        to_x = x < 0 ? 0 : size - 1;
-        to_y = size - 1 - to_y;
-    }
-    if (y < 0 || y >= size) {
-        to_y = (to_y < 0) ? 0 : (to_y >= size) ? size - 1 : to_y;
-        to_x = size - 1 - to_x;
-    }
-    return ivec2(to_x, to_y);
-}

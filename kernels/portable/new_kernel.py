@@ -43,21 +43,24 @@ KERNEL(NAME) {
 | extremes | NaN and infinities pass through |
 | left out when not needed | nothing yet |
 ''',
-    "include/luxel/NAME.h": '''// NAME: what it computes, and its source (author, year, section).
+    "include/luxel/NAME.h": '''/// \\file
+/// NAME: what it computes, and its source (author, year, section).
 #pragma once
 #include <luxel/plan.h>
 
 namespace luxel {
 
+/// What is done with an image.
 struct CAMELParams {
-  int width = 0;       // pixels, 1..65535
-  int height = 0;      // pixels, 1..65535
-  double factor = 1;   // any finite number
-  Format format = Format::f32x4;  // of src and dst: f32x1, f32x4
+  int width = 0;       ///< pixels, 1..65535
+  int height = 0;      ///< pixels, 1..65535
+  double factor = 1;   ///< any finite number
+  Format format = Format::f32x4;  ///< of src and dst: f32x1, f32x4
 };
 
 /// Resources of the plan: `src` and `dst`, width * height pixels. Errors: invalid_argument, naming field, value and range.
 Status validate(const CAMELParams& params);
+/// The passes that do it on a device of this profile. Errors: as validate.
 Result<Plan> plan(const CAMELParams& params, const Profile& profile);
 
 }  // namespace luxel

@@ -90,4 +90,25 @@ double lpv_flux(std::span<const double> pixels, std::size_t cells) {
   return sum;
 }
 
+Values lpv_turned(const Values& pixels, int side, int symmetry) {
+  constexpr int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+  constexpr std::size_t coefficient[3] = {3, 1, 2};  // of x, y, z
+  // Axis a is axis order[a] of `pixels`, backwards where its bit of `flips` is set.
+  const auto& order = orders[symmetry / 8];
+  const int flips = symmetry % 8;
+  Values out(pixels.size());
+  for (int z = 0; z < side; ++z)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const int to[3] = {x, y, z};
+        int from[3];
+        for (int a = 0; a < 3; ++a) from[order[a]] = flips >> a & 1 ? side - 1 - to[a] : to[a];
+        const auto at = static_cast<std::size_t>(4 * ((z * side + y) * side + x));
+        const auto was = static_cast<std::size_t>(4 * ((from[2] * side + from[1]) * side + from[0]));
+        out[at] = pixels[was];
+        for (int a = 0; a < 3; ++a) out[at + coefficient[a]] = (flips >> a & 1 ? -1 : 1) * pixels[was + coefficient[order[a]]];
+      }
+  return out;
+}
+
 }  // namespace luxel::cases

@@ -32,6 +32,9 @@ double lpv_cosine(int i, const std::array<double, 3>& n, double flux);
 /// Sum of c0 over the cells of light volumes of one channel.
 double lpv_flux(std::span<const double> pixels, std::size_t cells);
 
+/// A cube of side^3 pixels of two bands under one of the cube's 48 symmetries: axes permuted and turned round.
+Values lpv_turned(const Values& pixels, int side, int symmetry);
+
 constexpr LpvLobes all_lobes[] = {LpvLobes::linear, LpvLobes::clamp, LpvLobes::shrink, LpvLobes::rescale};
 const char* name(LpvLobes lobes);
 

@@ -164,33 +164,12 @@ Case symmetries(bool geometry, LpvLobes lobes) {
     if (!plain) return plain.status();
     double scale = 0, most = 0;
     for (const double v : plain.value()) scale = std::max(scale, std::fabs(v));
-    const int orders[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-    // Axis a of the turned volume is axis order[a] of the plain one, backwards where its bit of `flips` is set.
-    const auto turned = [&](const Values& v, int side, const int* order, int flips) {
-      Values out(v.size());
-      constexpr std::size_t coefficient[3] = {3, 1, 2};
-      for (int z = 0; z < side; ++z)
-        for (int y = 0; y < side; ++y)
-          for (int x = 0; x < side; ++x) {
-            const int to[3] = {x, y, z};
-            int from[3];
-            for (int a = 0; a < 3; ++a) from[order[a]] = flips >> a & 1 ? side - 1 - to[a] : to[a];
-            const auto at = static_cast<std::size_t>(4 * ((z * side + y) * side + x));
-            const auto was = static_cast<std::size_t>(4 * ((from[2] * side + from[1]) * side + from[0]));
-            out[at] = v[was];
-            for (int a = 0; a < 3; ++a)
-              out[at + coefficient[a]] = (flips >> a & 1 ? -1 : 1) * v[was + coefficient[order[a]]];
-          }
-      return out;
-    };
-    for (const auto& order : orders)
-      for (int flips = 0; flips < 8; ++flips) {
-        const Result<Values> got = propagate(context, p, turned(light, 5, order, flips),
-                                             geometry ? turned(blocks, 6, order, flips) : Values());
-        if (!got) return got.status();
-        const double d = max_difference(got.value(), turned(plain.value(), 5, order, flips)) / scale;
-        if (!(d <= most)) most = d;
-      }
+    for (int symmetry = 0; symmetry < 48; ++symmetry) {
+      const Result<Values> got = propagate(context, p, lpv_turned(light, 5, symmetry), geometry ? lpv_turned(blocks, 6, symmetry) : Values());
+      if (!got) return got.status();
+      const double d = max_difference(got.value(), lpv_turned(plain.value(), 5, symmetry)) / scale;
+      if (!(d <= most)) most = d;
+    }
     return most;
   };
   return c;
