@@ -131,29 +131,43 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   const std::array<std::uint32_t, 3> workgroup =
       lanes > 1 ? std::array<std::uint32_t, 3>{static_cast<std::uint32_t>(std::min(4, s.pitch / lanes)), 8, 1}
                 : profile.voxels.workgroup;
-  const int states = p.active ? p.iterations + 2 : 1;  // steps made; the largest c0 before each step and after the last
-  const Slot state = planner.scratch(Format::u32, static_cast<std::size_t>(states));
-  std::array<Slot, 2> reached;
-  if (p.active)
-    for (Slot& flags : reached)
-      flags = planner.scratch(Format::u32, static_cast<std::size_t>(runs) * static_cast<std::size_t>(e[1]) * static_cast<std::size_t>(e[2]));
+  const auto words = [&](double n) { return planner.scratch(Format::u32, static_cast<std::size_t>(n)); };
+  const Slot unused = planner.scratch(Format::f32x4, 1);
+  Slot state = unused, boxes = unused;
+  std::array<Slot, 2> reached{unused, unused};
 
   const double n = static_cast<double>(e[0]) * e[1] * e[2] * p.channels;
   const double stored = static_cast<double>(quads) * static_cast<double>(bytes_per_pixel(p.format));
   const Planner::Values extent = {{"width", e[0]}, {"height", e[1]}, {"depth", e[2]}};
-  planner.pass("lpv_start", std::string(name(p.format)) + "_" + bands, "light_propagation start",
-               cells(pixels ? e[0] : s.pitch, e[1], e[2] * p.channels), profile.voxels.workgroup,
-               extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}, {"states", states}},
-               {{"LOBES", static_cast<int>(p.lobes)}, {"ACTIVE", p.active}, {"CELLS", pixels}},
-               {{"injected", injected}, {"travelling", light[0]}, {"other", light[1]}, {"sum", sum[0]}, {"total", sum[1]}, {"state", state}});
-  planner.cost(0, n * (stored + (p.active ? 4.0 : 2.0) * 4 * coefficients(p)));
+  const Planner::Values periodic = {{"PERIODIC", p.border == LpvBorder::periodic}};
+  const std::array<std::uint32_t, 3>& starting = profile.voxels.workgroup;
+  const int columns = pixels ? e[0] : s.pitch;
   if (p.active) {
-    const int stored = pixels ? 4 * quads : coefficients(p);
-    planner.pass("lpv_reach", "plain", "light_propagation reach", cells(runs, e[1], e[2]), workgroup,
-                 extent + s.values() + Planner::Values{{"planes", p.channels * stored}, {"coefficients", stored}},
-                 {{"LANES", lanes}, {"CELLS", pixels}}, {{"travelling", light[0]}, {"reached", reached[0]}, {"state", state}});
-    planner.cost(0, n * 4 * coefficients(p));
+    const int states = p.iterations + 2;  // steps made; the largest c0 before each step and after the last; then the bounds
+    state = words(states + 6);
+    boxes = words(9.0 * (p.iterations + 1));
+    for (Slot& flags : reached) flags = words(static_cast<double>(runs) * e[1] * e[2]);
+    planner.pass("lpv_zero", "u32", "light_propagation zero", {8, 1, 1}, {8, 1, 1}, {{"count", states + 6}, {"stride", 8}}, {},
+                 {{"words", state}});
+    planner.pass("lpv_reach", name(p.format), "light_propagation reach", cells(runs, e[1], e[2]), workgroup,
+                 extent + Planner::Values{{"run", lanes}, {"volumes", p.channels * quads}, {"quads", quads}}, {},
+                 {{"injected", injected}, {"reached", reached[0]}, {"reaches", reached[1]}, {"state", state}});
+    planner.cost(0, n * stored);
+    planner.pass("lpv_bounds", "u32", "light_propagation bounds", cells(e[1], e[2], 1), {8, 1, 1},
+                 extent + Planner::Values{{"run", lanes}, {"at", states}}, {}, {{"reached", reached[0]}, {"state", state}});
+    planner.pass("lpv_boxes", "u32", "light_propagation boxes", cells(p.iterations + 1, 1, 1), {8, 1, 1},
+                 extent + Planner::Values{{"run", lanes}, {"columns", columns}, {"channels", p.channels}, {"steps", p.iterations},
+                                          {"at", states}, {"step_x", workgroup[0]}, {"step_y", workgroup[1]}, {"step_z", workgroup[2]},
+                                          {"start_x", starting[0]}, {"start_y", starting[1]}, {"start_z", starting[2]}},
+                 periodic, {{"state", state}, {"boxes", boxes}});
   }
+  planner.pass("lpv_start", std::string(name(p.format)) + "_" + bands, "light_propagation start",
+               cells(columns, e[1], e[2] * p.channels), starting,
+               extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", p.keep_injected}},
+               {{"LOBES", static_cast<int>(p.lobes)}, {"ACTIVE", p.active}, {"CELLS", pixels}},
+               {{"injected", injected}, {"travelling", light[0]}, {"other", light[1]}, {"sum", sum[0]}, {"total", sum[1]}, {"boxes", boxes}});
+  if (p.active) planner.counts(boxes);
+  planner.cost(0, n * (stored + (p.active ? 4.0 : 2.0) * 4 * coefficients(p)));
 
   if (blocked && pixels && p.geometry_format == Format::f32x4) {
     blocking = geometry;
@@ -168,7 +182,6 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                         (16.0 + static_cast<double>(bytes_per_pixel(p.geometry_format))));
   }
 
-  const Slot unused = planner.scratch(Format::f32x4, 1);
   for (int step = 0; step < p.iterations; ++step) {
     const std::size_t from = static_cast<std::size_t>(step % 2), to = 1 - from;
     const bool blocks = p.geometry && (step > 0 || p.continued);
@@ -177,18 +190,15 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
     std::vector<std::pair<std::string_view, Slot>> slots = {
         {"src", light[from]}, {"dst", light[to]}, {"sum", sum[from]}, {"total", sum[to]}};
     if (blocks || pixels) slots.push_back({"geometry", blocks ? blocking : light[from]});
-    if (p.active)
-      slots.insert(slots.end(), {{"reached", reached[from]}, {"reaches", reached[to]}, {"state", state}});
-    else if (pixels)
-      slots.insert(slots.end(), {{"reached", unused}, {"reaches", unused}, {"state", unused}});
+    if (p.active || pixels)
+      slots.insert(slots.end(), {{"reached", reached[from]}, {"reaches", reached[to]}, {"state", state}, {"boxes", boxes}});
     if (pixels) slots.push_back({"energy", p.energy ? energy : unused});
     const Planner::Values parameters = {{"channels", p.channels},
                                         {"across", step == 0 && p.bands == 3},
                                         {"last", !last ? 0 : p.travelling ? 2 : 1},
                                         {"step", step},
                                         {"error", p.error}};
-    const Planner::Values constants = {
-        {"LOBES", static_cast<int>(p.lobes)}, {"PERIODIC", p.border == LpvBorder::periodic}, {"APART", apart}};
+    const Planner::Values constants = periodic + Planner::Values{{"LOBES", static_cast<int>(p.lobes)}, {"APART", apart}};
     const auto grid = cells(runs, e[1], apart ? e[2] * p.channels : e[2]);
     const std::string label = "light_propagation step " + std::to_string(step + 1);
     if (pixels)
@@ -200,6 +210,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                    extent + s.values() + Planner::Values{{"geometry_pitch", g.pitch}, {"geometry_slice", g.slice}, {"geometry_plane", g.plane}} +
                        parameters,
                    constants + Planner::Values{{"LANES", lanes}}, slots);
+    if (p.active) planner.counts(boxes, 9 * static_cast<std::size_t>(step + 1));
     const double read = step == 0 ? coefficients(p) : carried(p);
     const double faces = p.bands == 3 ? 31 : 17;
     const double lobes = p.lobes == LpvLobes::clamp ? 30 : p.lobes == LpvLobes::shrink ? 14 : p.lobes == LpvLobes::rescale ? 150 : 0;
@@ -212,7 +223,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
     planner.pass("lpv_finish", name(p.format), "light_propagation finish", cells(e[0], e[1], e[2] * p.channels * quads),
                  profile.voxels.workgroup, extent + s.values() + Planner::Values{{"channels", p.channels}, {"keep", keep}},
                  {{"QUADS", quads}, {"ACTIVE", p.active}, {"CELLS", pixels}},
-                 {{"injected", injected}, {"sum", from}, {"result", to}, {"odd", odd}, {"state", state}});
+                 {{"injected", injected}, {"sum", from}, {"result", to}, {"odd", odd}, {"state", state}, {"boxes", boxes}});
     planner.cost(0, n * (4.0 * carried(p) + stored));
   };
   finish(p.active ? sum[0] : sum[at], sum[1], result, p.keep_injected);

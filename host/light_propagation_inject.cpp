@@ -69,7 +69,7 @@ void inject(Planner& planner, const Injection& in, const LpvGrid& grid, Slot lis
   const std::size_t words = cells * static_cast<std::size_t>(in.bands * in.bands * in.colours * in.sources * 3);
   const Slot sums = planner.scratch(Format::u32, words);
   const auto zero = [&](Slot slot, std::size_t count, const char* label) {
-    planner.pass("lpv_inject_zero", "u32", label, {invocations(count), 1, 1}, line,
+    planner.pass("lpv_zero", "u32", label, {invocations(count), 1, 1}, line,
                  {{"count", static_cast<double>(count)}, {"stride", invocations(count)}}, {}, {{"words", slot}});
     planner.cost(0, static_cast<double>(count) * 4);
   };

@@ -98,7 +98,7 @@ Result<Plan> plan(const LpvSampleParams& p, const Profile& profile) {
   const std::vector<double> exact = table;
   for (double& v : table) v = static_cast<float>(v);
   if (p.count)
-    planner.pass("lpv_inject_zero", "u32", "lpv_sample clear", {8, 1, 1}, {8, 1, 1}, {{"count", 8}, {"stride", 8}}, {},
+    planner.pass("lpv_zero", "u32", "lpv_sample clear", {8, 1, 1}, {8, 1, 1}, {{"count", 8}, {"stride", 8}}, {},
                  {{"words", outcomes}});
   const auto& e = p.grids[0].extent;
   planner.pass("lpv_sample", std::string(profile.texels ? "texels_" : "") + name(p.format), "lpv_sample",

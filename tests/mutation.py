@@ -27,7 +27,7 @@ class Build:
         self.folder, self.jobs = folder, jobs
 
     def configure(self, mutant):
-        done = run(["cmake", "--preset", "ci", "-B", self.folder, f"-DLUXEL_MUTANT={mutant}"], cwd=ROOT)
+        done = run(["cmake", "--preset", "ci", "-B", self.folder, f"-DLUXEL_MUTANT={mutant}", "-DLUXEL_PYTHON=OFF"], cwd=ROOT)
         if done.returncode:
             sys.exit(done.stderr)
 

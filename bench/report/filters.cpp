@@ -2,6 +2,7 @@
 #include "bench/report/filters.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -141,27 +142,40 @@ Setting setting(const std::string& terms) {
   return {p, cases::bilateral_images(p, 1)};
 }
 
-Result<Pair> compared(Session& session, const Setting& first, const Setting& second, const std::string& what) {
-  std::vector<std::shared_ptr<Run>> runs;
-  for (const Setting* s : {&first, &second}) {
-    Result<Run> made = Run::make(session.context(), plan(s->params, session.context().profile()));
+struct TimedPair {
+  std::array<std::shared_ptr<Run>, 2> runs;
+  Session::Pair times;
+};
+
+Result<TimedPair> timed_pair(Session& session, const Setting& first, const Setting& second, const std::string& what) {
+  TimedPair pair;
+  for (const std::size_t k : {0, 1}) {
+    const Setting& s = k == 0 ? first : second;
+    Result<Run> made = Run::make(session.context(), plan(s.params, session.context().profile()));
     if (!made) return made.status();
-    if (Status status = write_inputs(made.value(), {{"src", &s->images.src},
-                                                    {"guide", &s->images.guide},
-                                                    {"depth", &s->images.depth},
-                                                    {"normals", &s->images.normals}});
+    if (Status status = write_inputs(made.value(), {{"src", &s.images.src},
+                                                    {"guide", &s.images.guide},
+                                                    {"depth", &s.images.depth},
+                                                    {"normals", &s.images.normals}});
         !status)
       return status;
-    runs.push_back(std::make_shared<Run>(std::move(made).value()));
+    pair.runs[k] = std::make_shared<Run>(std::move(made).value());
   }
-  const auto times = session.interleave(timed(runs[0]), timed(runs[1]), "left out: " + what);
+  auto times = session.interleave(timed(pair.runs[0]), timed(pair.runs[1]), what);
   if (!times) return times.status();
-  const Sample saved = summarise(differences(times.value().a, times.value().b));
+  pair.times = std::move(times).value();
+  return pair;
+}
+
+Result<Pair> compared(Session& session, const Setting& first, const Setting& second, const std::string& what) {
+  const auto pair = timed_pair(session, first, second, "left out: " + what);
+  if (!pair) return pair.status();
+  const auto& [runs, times] = pair.value();
+  const Sample saved = summarise(differences(times.a, times.b));
   auto a = runs[0]->read("dst"), b = runs[1]->read("dst");
   if (!a) return a.status();
   if (!b) return b.status();
-  return Pair{std::move(a).value(), std::move(b).value(), saved.median,
-              static_cast<double>(runs[0]->plan().bytes) - static_cast<double>(runs[1]->plan().bytes)};
+  return Pair{std::move(a).value(), std::move(b).value(), saved.median, runs[0]->plan().bytes - runs[1]->plan().bytes};
 }
 
 void add_left_out(Session& session, const std::string& scene, const std::string& what, int level, double ms, double bytes,
@@ -223,6 +237,46 @@ std::vector<Job> filter_left_out(Session& session) {
                                  pair.value().saved_ms, 0, cases::max_difference(pair.value().first, pair.value().second));
                     return {};
                   }});
+  return jobs;
+}
+
+// Dammertz et al. 2010: levels whose taps lie 1, 2, 4, ... pixels apart, 25 each, reach as far as a window with all its taps.
+std::vector<Job> filter_reproduction(Session& session) {
+  std::vector<Job> jobs;
+  const bool quick = session.settings().quick;
+  if (session.is_cpu() && quick) return jobs;
+  for (const int levels : quick ? std::vector{4} : std::vector{4, 5})
+    jobs.push_back({fmt::format("bilateral reproduction: atrous of {} levels", levels), [&session, levels]() -> Status {
+                      const int reach = 2 * ((1 << levels) - 1), wide = 2 * reach + 1;
+                      Setting direct = setting("gdn");
+                      direct.params.width = direct.params.height = 128;
+                      direct.images = cases::bilateral_images(direct.params, 1);
+                      direct.params.radius = reach;
+                      direct.params.sigma_space = reach / 2.0;
+                      Setting atrous = direct;
+                      atrous.params.variant = BilateralVariant::atrous;
+                      atrous.params.levels = levels;
+                      const auto runs = timed_pair(session, direct, atrous, fmt::format("bilateral reproduction: atrous {}", levels));
+                      if (!runs) return runs.status();
+                      const Sample r = summarise(ratios(runs.value().times.a, runs.value().times.b));
+                      const double value = wide * wide / (25.0 * levels);
+                      session.row("reproduction",
+                                  {{"claim", fmt::format("{} passes of 25 taps reach as far as {} x {}: {} taps for {}, time ratio",
+                                                         levels, wide, wide, 25 * levels, wide * wide)},
+                                   {"source", levels == 4 ? "4,096 taps against 100 for 64 pixels (Dammertz et al. 2010)"
+                                                          : "15,625 taps against 125 for 125 pixels (Dammertz et al. 2010)"},
+                                   {"source_value", levels == 4 ? 40.96 : 125.0},
+                                   {"measured", r.median},
+                                   {"q1", r.q1},
+                                   {"q3", r.q3},
+                                   {"verdict", r.median < value / 1.5   ? "less than claimed"
+                                               : r.median > value * 1.5 ? "more than claimed"
+                                                                        : "confirmed"},
+                                   {"reason", "a pass reads and writes an image, and weighs taps that lie far apart; the window's "
+                                              "taps beyond the picture, 128 x 128, are left out"},
+                                   {"device", session.device()}});
+                      return {};
+                    }});
   return jobs;
 }
 

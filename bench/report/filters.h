@@ -10,6 +10,8 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
 /// separable, adaptive, grid and steps against direct in double.
 std::vector<Job> filter_grid(Session& session);
 std::vector<Job> filter_left_out(Session& session);
+/// Fewer taps, far apart, against a window with all of them.
+std::vector<Job> filter_reproduction(Session& session);
 /// OpenCV's bilateralFilter and jointBilateralFilter at 1920x1080, in turn with ours.
 std::vector<Job> filter_peers(Session& session);
 

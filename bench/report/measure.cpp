@@ -110,6 +110,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
     append(jobs, denoise_grid(session, missing));
     append(jobs, filter_grid(session));
     append(jobs, filter_left_out(session));
+    append(jobs, filter_reproduction(session));
     append(jobs, filter_peers(session));
     append(jobs, stability_jobs(session, cases::bilateral_cases()));
   }

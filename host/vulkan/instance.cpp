@@ -31,11 +31,12 @@ VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(VkDebugUtilsMessageSeverityFlagBitsE
   return VK_FALSE;
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messenger_info() {
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(bool best_practices) {
   auto info = structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
   info.messageSeverity =
       VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+  if (best_practices) info.messageType |= VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = keep_message;
   return info;
 }
@@ -69,9 +70,10 @@ Status no_driver(const std::string& why) {
 
 Result<std::unique_ptr<Instance>> Instance::create() {
   const char* wanted = std::getenv("LUXEL_VALIDATION");
-  const bool validate = wanted && std::string_view(wanted) == "1";
+  const bool best_practices = wanted && std::string_view(wanted) == "best_practices";
+  const bool validate = best_practices || (wanted && std::string_view(wanted) == "1");
   if (validate && !has_layer(validation_layer)) {
-    return Status(Code::missing_driver, std::string("vulkan: LUXEL_VALIDATION is 1, but the layer ") +
+    return Status(Code::missing_driver, std::string("vulkan: LUXEL_VALIDATION is ") + wanted + ", but the layer " +
                                             validation_layer +
                                             " is not installed; install it (Debian: vulkan-validationlayers)");
   }
@@ -89,11 +91,12 @@ Result<std::unique_ptr<Instance>> Instance::create() {
   info.pApplicationInfo = &application;
   info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info();
-  const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(best_practices);
+  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT,
+                                                  VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT};
   auto features = structure<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
-  features.enabledValidationFeatureCount = 1;
-  features.pEnabledValidationFeatures = &enabled;
+  features.enabledValidationFeatureCount = best_practices ? 2 : 1;
+  features.pEnabledValidationFeatures = enabled;
   features.pNext = &messenger;
   if (validate) {
     info.enabledLayerCount = 1;

@@ -81,8 +81,9 @@ class Context {
   /// the runs together.
   virtual Status run_many(Program& program, const std::vector<Named>& resources, int repeat, Times* times) = 0;
 
-  /// Messages of the Vulkan validation layers since the last call (empty elsewhere). Layers are on when the environment
-  /// variable LUXEL_VALIDATION is 1.
+  /// Messages of the Vulkan validation layers since the last call (empty elsewhere). Layers are on, with
+  /// synchronization validation, when the environment variable LUXEL_VALIDATION is 1, and with best practices too when it
+  /// is best_practices.
   virtual std::vector<std::string> validation_messages() { return {}; }
 };
 

@@ -56,9 +56,17 @@ FN bool lit(CTX, int i, int y, int z) {
 #endif
 
 KERNEL(lpv_propagate) {
+#if ACTIVE
+    const int box = 9 * (params.step + 1);
+    const int x = int(load(boxes, box + 3)) + invocation_x() * PIXELS;
+    const int y = int(load(boxes, box + 4)) + invocation_y();
+    const int z = int(load(boxes, box + 5)) + invocation_z();
+    if (x >= int(load(boxes, box + 6)) || y >= int(load(boxes, box + 7)) || z >= int(load(boxes, box + 8))) return;
+#else
     const int x = invocation_x() * PIXELS;
     const int y = invocation_y();
     const int z = APART != 0 ? invocation_z() % params.depth : invocation_z();
+#endif
     const int first = APART != 0 ? invocation_z() / params.depth : 0;
     const int last = APART != 0 ? first + 1 : params.channels;
     if (x >= params.width || y >= params.height || z >= params.depth || last > params.channels) return;
@@ -68,8 +76,8 @@ KERNEL(lpv_propagate) {
         const float most = uintBitsToFloat(load(state, 1 + params.step));
         if (most <= params.error * uintBitsToFloat(load(state, 1))) return;
     }
-    const int run = invocation_x();
-    if (run == 0 && y == 0 && z == 0) store(state, 0, uint(params.step + 1));
+    const int run = x / PIXELS;
+    if (invocation_x() == 0 && invocation_y() == 0 && invocation_z() == 0) store(state, 0, uint(params.step + 1));
     const int flag = (z * params.height + y) * ((params.width + PIXELS - 1) / PIXELS) + run;
     const bool before = lit(ctx, run, y, z);
     const bool around = lit(ctx, run - 1, y, z) || lit(ctx, run + 1, y, z) || lit(ctx, run, y - 1, z) ||

@@ -39,7 +39,8 @@
 #define REACHED(_) \
     _(READ, 5, uint, reached)  /* 1: light came to these PIXELS cells before */ \
     _(WRITE, 6, uint, reaches) /* the same after this step */ \
-    _(UPDATE, 7, uint, state)  /* steps made; bits of the largest c0 before each step */
+    _(UPDATE, 7, uint, state)  /* steps made; bits of the largest c0 before each step */ \
+    _(READ, 8, uint, boxes)    /* lpv_boxes: the cells that steps can reach */
 #else
 #define REACHED(_)
 #endif

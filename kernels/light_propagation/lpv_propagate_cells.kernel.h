@@ -52,11 +52,18 @@ FN bool lit(CTX, int x, int y, int z) {
 }
 
 KERNEL(lpv_propagate_cells) {
-    const int x = invocation_x();
-    const int y = invocation_y();
-    const int z = APART != 0 ? invocation_z() % params.depth : invocation_z();
+    int x = invocation_x();
+    int y = invocation_y();
+    int z = APART != 0 ? invocation_z() % params.depth : invocation_z();
     const int first = APART != 0 ? invocation_z() / params.depth : 0;
     const int last = APART != 0 ? first + 1 : params.channels;
+    if (ACTIVE != 0) {
+        const int box = 9 * (params.step + 1);
+        x += int(load(boxes, box + 3));
+        y += int(load(boxes, box + 4));
+        z += int(load(boxes, box + 5));
+        if (x >= int(load(boxes, box + 6)) || y >= int(load(boxes, box + 7)) || z >= int(load(boxes, box + 8))) return;
+    }
     if (x >= params.width || y >= params.height || z >= params.depth || last > params.channels) return;
     const int cell = (z * params.height + y) * params.width + x;
     const int cells = params.width * params.height * params.depth;
@@ -67,7 +74,7 @@ KERNEL(lpv_propagate_cells) {
             const float most = uintBitsToFloat(load(state, 1 + params.step));
             if (most <= params.error * uintBitsToFloat(load(state, 1))) return;
         }
-        if (cell == 0) store(state, 0, uint(params.step + 1));
+        if (invocation_x() == 0 && invocation_y() == 0 && invocation_z() == 0) store(state, 0, uint(params.step + 1));
         before = lit(ctx, x, y, z);
         const bool around = lit(ctx, x - 1, y, z) || lit(ctx, x + 1, y, z) || lit(ctx, x, y - 1, z) ||
                             lit(ctx, x, y + 1, z) || lit(ctx, x, y, z - 1) || lit(ctx, x, y, z + 1);

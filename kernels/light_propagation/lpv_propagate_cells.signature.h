@@ -20,7 +20,7 @@
     _(4, int, BLOCKED, 0)   /* 1: `geometry` blocks */ \
     _(5, int, ACTIVE, 0)    /* 1: cells that no light has reached are left out */ \
     _(6, int, ENERGY, 0)    /* 1: `energy` is added to */
-// Of the last four a buffer stands in for what its constant leaves out.
+// Of the last five a buffer stands in for what its constant leaves out.
 #define BINDINGS(_) \
     _(KIND, 0, f32x4, src)  /* light that travels: lpv_start */ \
     _(WRITE, 1, f32x4, dst) \
@@ -30,4 +30,5 @@
     _(READ, 5, uint, reached)   /* 1: light came to this cell before */ \
     _(WRITE, 6, uint, reaches)  /* the same after this step */ \
     _(UPDATE, 7, uint, state)   /* steps made; bits of the largest c0 before each step */ \
-    _(UPDATE, 8, vec4, energy)
+    _(UPDATE, 8, vec4, energy) \
+    _(READ, 9, uint, boxes)     /* lpv_boxes: the cells that steps can reach */

@@ -1,32 +1,21 @@
-// Where injected light is: a flag for each run of PIXELS cells (CELLS: for each cell), and the largest c0.
+// Where injected light is: a flag for each run of cells, and the largest c0.
 KERNEL(lpv_reach) {
-    const int x = CELLS != 0 ? invocation_x() : invocation_x() * PIXELS;
+    const int x = invocation_x() * params.run;
     const int y = invocation_y();
     const int z = invocation_z();
     if (x >= params.width || y >= params.height || z >= params.depth) return;
-    uint some = 0u;
+    const ivec3 extent = ivec3(params.width, params.height, params.depth);
+    uint some = 0u;  // bits of any coefficient but its sign
     uint most = 0u;
-    if (CELLS != 0) {
-        const int cells = params.width * params.height * params.depth;
-        const int cell = (z * params.height + y) * params.width + x;
-        for (int plane = 0; plane < params.planes; ++plane) {
-            const float c = load_pixel(travelling, 0, 4 + 4 * (plane / 4 * cells + cell) + plane % 4, 0);
-            const uint bits = floatBitsToUint(abs(c));
-            some = some | bits;
-            if (plane % params.coefficients == 0) most = max(most, bits);
+    for (int k = x; k < min(x + params.run, params.width); ++k)
+        for (int volume = 0; volume < params.volumes; ++volume) {
+            const vec4 c = load_voxel(injected, extent, ivec3(k, y, volume * params.depth + z));
+            const uint c0 = floatBitsToUint(abs(c.x));
+            some = some | c0 | floatBitsToUint(abs(c.y)) | floatBitsToUint(abs(c.z)) | floatBitsToUint(abs(c.w));
+            if (volume % params.quads == 0) most = max(most, c0);
         }
-        store(reached, cell, some != 0u ? 1u : 0u);
-        if (most != 0u) atomic_max(state, 1, most);
-        return;
-    }
-    for (int plane = 0; plane < params.planes; ++plane) {
-        const wide c = load_wide(travelling, 0, 3 * params.pitch + plane * params.plane + z * params.slice + y * params.pitch + x, 0);
-        for (int k = 0; k < PIXELS && x + k < params.width; ++k) {
-            const uint bits = floatBitsToUint(abs(get_pixel(c, k)));
-            some = some | bits;
-            if (plane % params.coefficients == 0) most = max(most, bits);
-        }
-    }
-    store(reached, (z * params.height + y) * ((params.width + PIXELS - 1) / PIXELS) + invocation_x(), some != 0u ? 1u : 0u);
+    const int flag = (z * params.height + y) * ((params.width + params.run - 1) / params.run) + invocation_x();
+    store(reached, flag, some != 0u ? 1u : 0u);
+    store(reaches, flag, 0u);
     if (most != 0u) atomic_max(state, 1, most);
 }

@@ -1,20 +1,16 @@
 /* BUILD
-   module plain: CHANNELS=1
+   module f32x4: PIXEL=f32x4
+   module f16x4: PIXEL=f16x4
 */
 #define PARAMETERS(_) \
     _(int, width)    /* cells along x, y, z */ \
     _(int, height) \
     _(int, depth) \
-    _(int, pitch)    /* values from row to row, slice to slice, plane to plane */ \
-    _(int, slice) \
-    _(int, plane) \
-    _(int, planes)       /* of all channels */ \
-    _(int, coefficients) /* planes of a channel */
-#define CONSTANTS(_) \
-    _(0, int, CELLS, 0)  /* 1: pixels of four, a cell each; coefficients then counts their values */
-#define SHAPE(_) \
-    _(8, int, LANES, 16)
+    _(int, run)      /* neighbouring cells that share a flag */ \
+    _(int, volumes)  /* of four coefficients, of all channels */ \
+    _(int, quads)    /* of them a channel's */
 #define BINDINGS(_) \
-    _(READ, 0, f32x1, travelling) \
+    _(READ, 0, PIXEL, injected) \
     _(WRITE, 1, uint, reached) \
-    _(UPDATE, 2, uint, state)
+    _(WRITE, 2, uint, reaches)  /* what the first step writes its flags to: none */ \
+    _(UPDATE, 3, uint, state)

@@ -18,30 +18,31 @@ FN int place_of(CTX, int channel, int i, int x, int y, int z) {
 }
 
 KERNEL(lpv_start) {
-    const int x = invocation_x();
-    const int y = invocation_y();
-    const int z = invocation_z() % params.depth;
-    const int channel = invocation_z() / params.depth;
     const int columns = CELLS != 0 ? params.width : params.pitch;
-    if (x >= columns || y >= params.height || channel >= params.channels) return;
-    if (y == 0 && z == 0 && channel == 0) {
-        const float left = x > 0 ? 1.0f : 0.0f;
-        const float right = x + 1 < params.width ? 1.0f : 0.0f;
-        if (CELLS == 0) {
-            store(travelling, x, 0.0f);
-            store(travelling, params.pitch + x, left);
-            store(travelling, 2 * params.pitch + x, right);
-            store(other, x, 0.0f);
-            store(other, params.pitch + x, left);
-            store(other, 2 * params.pitch + x, right);
-        } else if (x == 0) {
-            for (int i = 0; i < 4; ++i) {
-                store(travelling, i, 0.0f);
-                store(other, i, 0.0f);
-            }
-        }
-        for (int i = x; i < params.states; i += columns) store(state, i, 0u);
+    ivec3 low = ivec3(0, 0, 0);
+    ivec3 end = ivec3(columns, params.height, params.depth);
+    if (ACTIVE != 0) {
+        low = ivec3(int(load(boxes, 3)), int(load(boxes, 4)), int(load(boxes, 5)));
+        end = ivec3(int(load(boxes, 6)), int(load(boxes, 7)), int(load(boxes, 8)));
+        if (end.z == low.z) return;
     }
+    const int x = low.x + invocation_x();
+    const int y = low.y + invocation_y();
+    const int z = low.z + invocation_z() % (end.z - low.z);
+    const int channel = invocation_z() / (end.z - low.z);
+    if (x >= end.x || y >= end.y || channel >= params.channels) return;
+    if (invocation_y() == 0 && invocation_z() == 0)
+        for (int i = invocation_x(); i < (CELLS != 0 ? 4 : params.pitch); i += end.x - low.x) {
+            store(travelling, i, 0.0f);
+            store(other, i, 0.0f);
+            if (CELLS != 0) continue;
+            const float left = i > 0 ? 1.0f : 0.0f;
+            const float right = i + 1 < params.width ? 1.0f : 0.0f;
+            store(travelling, params.pitch + i, left);
+            store(travelling, 2 * params.pitch + i, right);
+            store(other, params.pitch + i, left);
+            store(other, 2 * params.pitch + i, right);
+        }
 
     float c[12];
     UNROLL for (int q = 0; q < QUADS; ++q) {

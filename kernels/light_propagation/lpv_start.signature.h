@@ -13,11 +13,10 @@
     _(int, slice) \
     _(int, plane) \
     _(int, channels) \
-    _(int, keep)     /* 1: the sum begins with the injected light, 0: with none */ \
-    _(int, states)   /* values of state, which are cleared */
+    _(int, keep)     /* 1: the sum begins with the injected light, 0: with none */
 #define CONSTANTS(_) \
     _(0, int, LOBES, 0)  /* 0 linear, 1 clamp, 2 shrink, 3 rescale */ \
-    _(1, int, ACTIVE, 0) /* 1: the other two buffers are filled too, since steps leave out cells */ \
+    _(1, int, ACTIVE, 0) /* 1: only what steps read (lpv_boxes), and the other two buffers too, since steps leave out cells */ \
     _(2, int, CELLS, 0)  /* 1: pixels of four, a cell each */
 #define BINDINGS(_) \
     _(READ, 0, PIXEL, injected) \
@@ -25,4 +24,4 @@
     _(WRITE, 2, float, other)     /* what the first step writes: its three rows are made here */ \
     _(WRITE, 3, float, sum) \
     _(WRITE, 4, float, total)     /* the other sum */ \
-    _(WRITE, 5, uint, state)
+    _(READ, 5, uint, boxes)

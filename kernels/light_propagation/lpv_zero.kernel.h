@@ -1,5 +1,5 @@
-// Clears sums and counts.
+// Clears words.
 
-KERNEL(lpv_inject_zero) {
+KERNEL(lpv_zero) {
     for (int i = invocation_x(); i < params.count; i += params.stride) store(words, i, 0u);
 }

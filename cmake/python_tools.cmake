@@ -1,0 +1,21 @@
+# LUXEL_PYTHON is AUTO: a virtual environment with what the Python module is built and tested with. Where PyPI is out of reach
+# the module is left out, and so is its test.
+set(tools ${PROJECT_BINARY_DIR}/venv)
+find_program(LUXEL_DEBIAN_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(LUXEL_DEBIAN_PYTHON AND NOT EXISTS ${tools}/ready)
+  execute_process(COMMAND ${LUXEL_DEBIAN_PYTHON} -m venv --system-site-packages ${tools} RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
+  if(NOT failed)
+    execute_process(COMMAND ${tools}/bin/pip install --quiet --timeout 10 --retries 1 nanobind pytest RESULT_VARIABLE failed
+                    OUTPUT_QUIET ERROR_QUIET TIMEOUT 120)
+  endif()
+  if(NOT failed)
+    file(TOUCH ${tools}/ready)
+  endif()
+endif()
+if(EXISTS ${tools}/ready)
+  set(Python_EXECUTABLE ${tools}/bin/python3 CACHE FILEPATH "" FORCE)
+  set(LUXEL_PYTHON ON)
+else()
+  message(WARNING "no nanobind from PyPI: the Python module is neither built nor tested")
+  set(LUXEL_PYTHON OFF)
+endif()
