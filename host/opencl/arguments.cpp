@@ -5,12 +5,26 @@
 namespace luxel::opencl {
 namespace {
 
-template <class T>
-T memory_value(cl_mem memory, cl_mem_info what) {
-  T result{};
-  if (clGetMemObjectInfo(memory, what, sizeof result, &result, nullptr) != CL_SUCCESS) return T{};
-  return result;
-}
+/// Properties of a memory object; `error` holds the first query that failed.
+struct Properties {
+  cl_mem memory;
+  cl_int error = CL_SUCCESS;
+
+  template <class T>
+  T value(cl_mem_info what) {
+    T result{};
+    const cl_int got = clGetMemObjectInfo(memory, what, sizeof result, &result, nullptr);
+    if (error == CL_SUCCESS) error = got;
+    return result;
+  }
+  template <class T>
+  T image(cl_image_info what) {
+    T result{};
+    const cl_int got = clGetImageInfo(memory, what, sizeof result, &result, nullptr);
+    if (error == CL_SUCCESS) error = got;
+    return result;
+  }
+};
 
 std::string bytes_text(std::size_t bytes) { return std::to_string(bytes) + " bytes"; }
 
@@ -23,27 +37,31 @@ struct Checker {
   const Shared& shared;
   const Binding& binding;
 
-  Status bad(const std::string& what) const { return bad_binding(shared.plan, binding.name, what); }
+  Properties properties{binding.memory};
+
+  /// A defect of the binding, or why it could not be looked at.
+  Status bad(const std::string& what) const {
+    if (properties.error == CL_SUCCESS) return bad_binding(shared.plan, binding.name, what);
+    if (properties.error == CL_INVALID_MEM_OBJECT) return bad_binding(shared.plan, binding.name, "is no memory object");
+    return failure(properties.error, shared.plan.kernel + ": binding " + std::string(binding.name) + " could not be looked at");
+  }
 
   /// What every memory object must be.
-  Status check_memory(bool read, bool written) const {
+  Status check_memory(bool read, bool written) {
     if (!binding.memory) return bad("has no memory; expected a cl_mem");
-    cl_context context = nullptr;
-    if (clGetMemObjectInfo(binding.memory, CL_MEM_CONTEXT, sizeof context, &context, nullptr) != CL_SUCCESS)
-      return bad("is no memory object");
-    if (context != shared.device->context.get()) return bad("belongs to another context");
-    const auto flags = memory_value<cl_mem_flags>(binding.memory, CL_MEM_FLAGS);
+    if (properties.value<cl_context>(CL_MEM_CONTEXT) != shared.device->context.get()) return bad("belongs to another context");
+    const auto flags = properties.value<cl_mem_flags>(CL_MEM_FLAGS);
     if (written && (flags & CL_MEM_READ_ONLY)) return bad("is CL_MEM_READ_ONLY, but is written");
     if (read && (flags & CL_MEM_WRITE_ONLY)) return bad("is CL_MEM_WRITE_ONLY, but is read");
     return {};
   }
 
-  Result<Range> buffer(std::size_t needed) const {
-    if (memory_value<cl_mem_object_type>(binding.memory, CL_MEM_TYPE) != CL_MEM_OBJECT_BUFFER)
+  Result<Range> buffer(std::size_t needed) {
+    if (properties.value<cl_mem_object_type>(CL_MEM_TYPE) != CL_MEM_OBJECT_BUFFER)
       return bad("is an image; expected a buffer");
     if (binding.bytes < needed)
       return bad("has " + bytes_text(binding.bytes) + "; needs at least " + std::to_string(needed));
-    const auto size = memory_value<std::size_t>(binding.memory, CL_MEM_SIZE);
+    const auto size = properties.value<std::size_t>(CL_MEM_SIZE);
     if (binding.offset > size || binding.bytes > size - binding.offset)
       return bad("claims " + bytes_text(binding.bytes) + " from offset " + std::to_string(binding.offset) +
                  ", but its memory object has " + std::to_string(size));
@@ -51,15 +69,16 @@ struct Checker {
       return bad("has offset " + std::to_string(binding.offset) + "; expected a multiple of " +
                  bytes_text(shared.device->limits.alignment));
     Range range{binding.memory, binding.offset, needed, binding.memory, binding.offset};
-    if (const auto parent = memory_value<cl_mem>(binding.memory, CL_MEM_ASSOCIATED_MEMOBJECT)) {
+    if (const auto parent = properties.value<cl_mem>(CL_MEM_ASSOCIATED_MEMOBJECT)) {
       range.root = parent;
-      range.root_offset += memory_value<std::size_t>(binding.memory, CL_MEM_OFFSET);
+      range.root_offset += properties.value<std::size_t>(CL_MEM_OFFSET);
     }
+    if (properties.error != CL_SUCCESS) return bad("");
     return range;
   }
 
-  Result<Range> image(const Resource& resource) const {
-    const auto type = memory_value<cl_mem_object_type>(binding.memory, CL_MEM_TYPE);
+  Result<Range> image(const Resource& resource) {
+    const auto type = properties.value<cl_mem_object_type>(CL_MEM_TYPE);
     if (type != CL_MEM_OBJECT_IMAGE2D && type != CL_MEM_OBJECT_IMAGE3D)
       return bad("is no 2-D or 3-D image; expected an image");
     std::array<std::size_t, 3> extent{1, 1, 1};
@@ -67,17 +86,17 @@ struct Checker {
     const std::size_t dimensions = type == CL_MEM_OBJECT_IMAGE3D ? 3 : 2;
     bool equal = dimensions == 3 || resource.extent[2] == 1;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (axis < dimensions) clGetImageInfo(binding.memory, axes[axis], sizeof extent[axis], &extent[axis], nullptr);
+      if (axis < dimensions) extent[axis] = properties.image<std::size_t>(axes[axis]);
       equal = equal && extent[axis] == static_cast<std::size_t>(resource.extent[axis]);
     }
     if (!equal) return bad("has " + extent_text(extent) + " texels; expected " + extent_text(resource.extent));
-    cl_image_format format{};
-    clGetImageInfo(binding.memory, CL_IMAGE_FORMAT, sizeof format, &format, nullptr);
+    const auto format = properties.image<cl_image_format>(CL_IMAGE_FORMAT);
     const cl_image_format wanted = image_format(resource.format);
     if (format.image_channel_order != wanted.image_channel_order ||
         format.image_channel_data_type != wanted.image_channel_data_type)
       return bad(std::string("has another texel format; expected ") + name(resource.format));
-    const auto parent = memory_value<cl_mem>(binding.memory, CL_MEM_ASSOCIATED_MEMOBJECT);
+    const auto parent = properties.value<cl_mem>(CL_MEM_ASSOCIATED_MEMOBJECT);
+    if (properties.error != CL_SUCCESS) return bad("");
     return Range{binding.memory, 0, 0, parent ? parent : binding.memory, 0};
   }
 };
@@ -96,7 +115,9 @@ Status check_dimensions(const Shared& shared, std::span<const Range> ranges) {
       const BindingKind kind = pass.module->bindings[i].kind;
       if (!is_image(kind)) continue;
       const std::size_t index = static_cast<std::size_t>(pass.slots[i].index);
-      const auto type = memory_value<cl_mem_object_type>(ranges[index].memory, CL_MEM_TYPE);
+      Properties properties{ranges[index].memory};
+      const auto type = properties.value<cl_mem_object_type>(CL_MEM_TYPE);
+      if (properties.error != CL_SUCCESS) return failure(properties.error, shared.plan.kernel + ": an image could not be looked at");
       if ((type == CL_MEM_OBJECT_IMAGE3D) != is_3d(kind))
         return bad_binding(shared.plan, shared.plan.resources[index].name,
                            is_3d(kind) ? "is a 2-D image; expected 3-D" : "is a 3-D image; expected 2-D");
@@ -118,7 +139,8 @@ Result<std::vector<Range>> check_bindings(const Shared& shared, std::span<const 
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const bool scratch = i == plan.resources.size();
     if (scratch && plan.scratch_bytes == 0) continue;
-    const Checker checker{shared, bindings[static_cast<std::size_t>(found.value()[i])]};
+    Checker checker{shared, bindings[static_cast<std::size_t>(found.value()[i])],
+                    {bindings[static_cast<std::size_t>(found.value()[i])].memory}};
     const bool read = scratch || shared.uses[i].read, written = scratch || shared.uses[i].first_write >= 0;
     if (Status status = checker.check_memory(read, written); !status) return status;
     const bool image = !scratch && plan.resources[i].kind != ResourceKind::buffer;
@@ -128,8 +150,13 @@ Result<std::vector<Range>> check_bindings(const Shared& shared, std::span<const 
     ranges[i] = range.value();
   }
   constexpr cl_mem_flags host_may_not_write = CL_MEM_HOST_READ_ONLY | CL_MEM_HOST_NO_ACCESS;
-  if (shared.tables && (memory_value<cl_mem_flags>(ranges.back().memory, CL_MEM_FLAGS) & host_may_not_write))
-    return bad_binding(plan, "scratch", "forbids the host to write, but tables are written to it");
+  if (shared.tables) {
+    Properties scratch{ranges.back().memory};
+    const auto flags = scratch.value<cl_mem_flags>(CL_MEM_FLAGS);
+    if (scratch.error != CL_SUCCESS) return failure(scratch.error, plan.kernel + ": scratch could not be looked at");
+    if (flags & host_may_not_write)
+      return bad_binding(plan, "scratch", "forbids the host to write, but tables are written to it");
+  }
   if (Status status = check_dimensions(shared, ranges); !status) return status;
   for (const auto& [a, b] : shared.exclusive) {
     if (overlap(ranges[static_cast<std::size_t>(a)], ranges[static_cast<std::size_t>(b)]))

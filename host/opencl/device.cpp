@@ -26,11 +26,12 @@ Limits limits_of(cl_device_id device) {
   return limits;
 }
 
-bool contains(cl_context context, cl_device_id device) {
+Result<bool> contains(cl_context context, cl_device_id device) {
   std::size_t bytes = 0;
-  if (clGetContextInfo(context, CL_CONTEXT_DEVICES, 0, nullptr, &bytes) != CL_SUCCESS) return false;
+  cl_int error = clGetContextInfo(context, CL_CONTEXT_DEVICES, 0, nullptr, &bytes);
   std::vector<cl_device_id> devices(bytes / sizeof(cl_device_id));
-  if (clGetContextInfo(context, CL_CONTEXT_DEVICES, bytes, devices.data(), nullptr) != CL_SUCCESS) return false;
+  if (error == CL_SUCCESS) error = clGetContextInfo(context, CL_CONTEXT_DEVICES, bytes, devices.data(), nullptr);
+  if (error != CL_SUCCESS) return failure(error, "opencl::Adopt.context could not be looked at");
   return std::find(devices.begin(), devices.end(), device) != devices.end();
 }
 
@@ -51,7 +52,9 @@ Result<Device> Device::adopt(const Adopt& info) {
   };
   if (!info.context) return invalid("context is null; expected a cl_context");
   if (!info.device) return invalid("device is null; expected a cl_device_id");
-  if (!contains(info.context, info.device)) return invalid("device is not one of the context's devices");
+  const Result<bool> contained = contains(info.context, info.device);
+  if (!contained) return contained.status();
+  if (!contained.value()) return invalid("device is not one of the context's devices");
 
   auto state = std::make_shared<State>();
   state->device = info.device;

@@ -44,10 +44,11 @@ Result<QueueInfo> check_call(const Shared& shared, cl_command_queue queue, const
   cl_context context = nullptr;
   cl_device_id device = nullptr;
   cl_command_queue_properties properties = 0;
-  if (clGetCommandQueueInfo(queue, CL_QUEUE_CONTEXT, sizeof context, &context, nullptr) != CL_SUCCESS ||
-      clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof device, &device, nullptr) != CL_SUCCESS ||
-      clGetCommandQueueInfo(queue, CL_QUEUE_PROPERTIES, sizeof properties, &properties, nullptr) != CL_SUCCESS)
-    return bad("queue is no command queue");
+  cl_int error = clGetCommandQueueInfo(queue, CL_QUEUE_CONTEXT, sizeof context, &context, nullptr);
+  if (error == CL_SUCCESS) error = clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof device, &device, nullptr);
+  if (error == CL_SUCCESS) error = clGetCommandQueueInfo(queue, CL_QUEUE_PROPERTIES, sizeof properties, &properties, nullptr);
+  if (error == CL_INVALID_COMMAND_QUEUE) return bad("queue is no command queue");
+  if (error != CL_SUCCESS) return failure(error, shared.plan.kernel + ": the queue could not be looked at");
   if (context != shared.device->context.get() || device != shared.device->device)
     return bad("queue belongs to another device; expected one of " + shared.device->name);
   if ((options.wait == nullptr) != (options.wait_count == 0))

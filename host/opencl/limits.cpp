@@ -19,13 +19,14 @@ bool exceeds(const std::array<int, 3>& extent, const std::array<std::size_t, n>&
   return false;
 }
 
-bool format_supported(const Device::State& device, Format needed, bool volume, cl_mem_flags flags) {
+Result<bool> format_supported(const Device::State& device, Format needed, bool volume, cl_mem_flags flags) {
   const cl_mem_object_type type = volume ? CL_MEM_OBJECT_IMAGE3D : CL_MEM_OBJECT_IMAGE2D;
   cl_uint count = 0;
-  if (clGetSupportedImageFormats(device.context.get(), flags, type, 0, nullptr, &count) != CL_SUCCESS) return false;
+  cl_int error = clGetSupportedImageFormats(device.context.get(), flags, type, 0, nullptr, &count);
   std::vector<cl_image_format> formats(count);
-  if (clGetSupportedImageFormats(device.context.get(), flags, type, count, formats.data(), nullptr) != CL_SUCCESS)
-    return false;
+  if (error == CL_SUCCESS)
+    error = clGetSupportedImageFormats(device.context.get(), flags, type, count, formats.data(), nullptr);
+  if (error != CL_SUCCESS) return failure(error, device.name + " does not say which images it has");
   const cl_image_format wanted = image_format(needed);
   return std::any_of(formats.begin(), formats.end(), [&](const cl_image_format& format) {
     return format.image_channel_order == wanted.image_channel_order &&
@@ -76,11 +77,14 @@ Status check_limits(const Device::State& device, const Plan& plan) {
       return small(resource.name, "CL_DEVICE_IMAGE2D_MAX_WIDTH and _HEIGHT", extent_text(most, 2),
                    extent_text(resource.extent, 2) + " texels");
     }
-    if ((use[i].read && !format_supported(device, resource.format, volume, CL_MEM_READ_ONLY)) ||
-        (use[i].first_write >= 0 && !format_supported(device, resource.format, volume, CL_MEM_WRITE_ONLY)))
-      return Status(Code::unsupported, plan.kernel + ": " + device.name + " has no " + (volume ? "3-D" : "2-D") +
-                                           " images of " + name(resource.format) + ", which " + resource.name +
-                                           " needs; bind a buffer or take another format");
+    for (const auto& [needed, flags] : {std::pair{use[i].read, CL_MEM_READ_ONLY}, {use[i].first_write >= 0, CL_MEM_WRITE_ONLY}}) {
+      const Result<bool> supported = needed ? format_supported(device, resource.format, volume, flags) : Result<bool>(true);
+      if (!supported) return supported.status();
+      if (!supported.value())
+        return Status(Code::unsupported, plan.kernel + ": " + device.name + " has no " + (volume ? "3-D" : "2-D") +
+                                             " images of " + name(resource.format) + ", which " + resource.name +
+                                             " needs; bind a buffer or take another format");
+    }
   }
 
   if (plan.scratch_bytes > limits.allocation)

@@ -23,7 +23,7 @@ struct Scenario {
 /// Images, a sampler, tables and timestamps.
 inline Scenario sampled_blur(const Profile& profile) {
   GaussianBlurParams p;
-  p.width = 9, p.height = 7, p.sigma = 1.5, p.variant = GaussianVariant::sampler;
+  p.width = 9, p.height = 7, p.sigma = 1.5, p.variant = GaussianVariant::sampler, p.input = Input::image;
   std::vector<float> image(4 * 63);
   for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<float>(i % 13) / 8;
   return {plan(p, profile).value(), {{"src", bytes_of(image)}}, "dst"};
