@@ -195,7 +195,6 @@ void add_left_out(Session& session, const std::string& scene, const std::string&
 // What a term costs that is left out where it is not asked for.
 std::vector<Job> filter_left_out(Session& session) {
   std::vector<Job> jobs;
-  if (session.is_cpu() && session.settings().quick) return jobs;  // 10 s that nobody runs it for
   const std::string room = "a floor, a wall and a box 512x512";
   for (const auto& [term, what] :
        {std::pair{'d', "the depth term"}, {'n', "the normal term"}, {'g', "the colour term"}}) {
@@ -244,7 +243,6 @@ std::vector<Job> filter_left_out(Session& session) {
 std::vector<Job> filter_reproduction(Session& session) {
   std::vector<Job> jobs;
   const bool quick = session.settings().quick;
-  if (session.is_cpu() && quick) return jobs;
   for (const int levels : quick ? std::vector{4} : std::vector{4, 5})
     jobs.push_back({fmt::format("bilateral reproduction: atrous of {} levels", levels), [&session, levels]() -> Status {
                       const int reach = 2 * ((1 << levels) - 1), wide = 2 * reach + 1;

@@ -29,6 +29,7 @@ class Grid {
             BlurMetric metric = BlurMetric::largest) {
     for (const double k : ks) {
       const GaussianBlurParams separable = params_for(*scene, sigma, k, format);
+      if (session_.is_cpu() && separable.radius > 96) continue;
       add(scene, separable, k, metric);
       // Interpolating in C++ costs many times the reading of a texel.
       const bool sampled =
