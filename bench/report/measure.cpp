@@ -101,28 +101,34 @@ int measure_device(const Settings& settings, const std::string& device, double b
   std::vector<Job> jobs = limit_jobs(session);
   if (settings.wants("gaussian_blur")) {
     append(jobs, gaussian_grid(session, files));
-    if (compares) append(jobs, gaussian_left_out(session));
-    if (compares) append(jobs, gaussian_reproduction(session));
-    if (compares) append(jobs, gaussian_peers(session));
-    if (compares) append(jobs, gaussian_scipy(session));
+    if (compares) {
+      append(jobs, gaussian_left_out(session));
+      append(jobs, gaussian_reproduction(session));
+      append(jobs, gaussian_peers(session));
+      append(jobs, gaussian_scipy(session));
+    }
     append(jobs, stability_jobs(session, cases::gaussian_blur_cases()));
     if (first) append(jobs, gaussian_pictures(session, files));
   }
   if (settings.wants("bilateral")) {
     append(jobs, denoise_grid(session, missing));
     append(jobs, filter_grid(session));
-    if (compares) append(jobs, filter_left_out(session));
-    if (compares) append(jobs, filter_reproduction(session));
-    if (compares) append(jobs, filter_peers(session));
+    if (compares) {
+      append(jobs, filter_left_out(session));
+      append(jobs, filter_reproduction(session));
+      append(jobs, filter_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::bilateral_cases()));
   }
   if (settings.wants("mip_build")) {
     const MipScenes scenes = mip_scenes(settings, files, missing);
     append(jobs, mip_grid(session, scenes));
-    if (compares) append(jobs, mip_left_out(session, scenes));
-    if (compares) append(jobs, mip_reproduction(session, scenes));
-    if (compares) append(jobs, octree_reproduction(session, missing));
-    if (compares) append(jobs, mip_peers(session));
+    if (compares) {
+      append(jobs, mip_left_out(session, scenes));
+      append(jobs, mip_reproduction(session, scenes));
+      append(jobs, octree_reproduction(session, missing));
+      append(jobs, mip_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
     if (first) append(jobs, mip_pictures(session, scenes));
   }
@@ -135,37 +141,47 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   if (settings.wants("cone_trace")) {
     append(jobs, cone_grid(session));
-    if (compares) append(jobs, cone_left_out(session));
-    if (compares) append(jobs, scene_left_out(session, missing));
-    if (compares) append(jobs, cone_reproduction(session));
-    if (compares) append(jobs, cone_peers(session));
+    if (compares) {
+      append(jobs, cone_left_out(session));
+      append(jobs, scene_left_out(session, missing));
+      append(jobs, cone_reproduction(session));
+      append(jobs, cone_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::cone_trace_cases()));
     append(jobs, rendered_grid(session, missing));
   }
   if (settings.wants("hiz_ssr")) {
     append(jobs, screen_grid(session));
     append(jobs, screen_truth_grid(session, missing));
-    if (compares) append(jobs, screen_left_out(session));
-    if (compares) append(jobs, screen_peers(session));
+    if (compares) {
+      append(jobs, screen_left_out(session));
+      append(jobs, screen_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::hiz_ssr_cases()));
   }
   if (settings.wants("octahedral_march")) {
     append(jobs, probe_grid(session));
-    if (compares) append(jobs, probe_left_out(session));
-    if (compares) append(jobs, probe_reproduction(session));
-    if (compares) append(jobs, probe_peers(session));
+    if (compares) {
+      append(jobs, probe_left_out(session));
+      append(jobs, probe_reproduction(session));
+      append(jobs, probe_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::octahedral_march_cases()));
     append(jobs, probe_light_grid(session, missing));
-    if (compares) append(jobs, probe_light_left_out(session));
-    if (compares) append(jobs, probe_light_reproduction(session));
-    if (compares) append(jobs, probe_light_peers(session));
+    if (compares) {
+      append(jobs, probe_light_left_out(session));
+      append(jobs, probe_light_reproduction(session));
+      append(jobs, probe_light_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::probe_cases()));
   }
   if (settings.wants("light_propagation")) {
     append(jobs, propagation_grid(session));
-    if (compares) append(jobs, propagation_left_out(session));
-    if (compares) append(jobs, propagation_reproduction(session));
-    if (compares) append(jobs, propagation_peers(session));
+    if (compares) {
+      append(jobs, propagation_left_out(session));
+      append(jobs, propagation_reproduction(session));
+      append(jobs, propagation_peers(session));
+    }
     append(jobs, stability_jobs(session, cases::light_propagation_cases()));
     append(jobs, lpv_scene_grid(session, missing));
     if (compares) append(jobs, lpv_scene_left_out(session));
