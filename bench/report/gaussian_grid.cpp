@@ -31,15 +31,15 @@ class Grid {
       const GaussianBlurParams separable = params_for(*scene, sigma, k, format);
       if (session_.is_cpu() && separable.radius > 96) continue;
       add(scene, separable, k, metric);
-      // Interpolating in C++ costs many times the reading of a texel.
-      const bool sampled =
-          quick_ || session_.is_cpu() ? k == 3 && separable.radius <= 12 : separable.radius <= 64;
-      if (sampled) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
+      // The same taps read otherwise, whose error is separable's, stand at one truncation. Interpolating in C++ costs many
+      // times the reading of a texel.
+      const bool read_otherwise = k == 3 && separable.radius <= (quick_ || session_.is_cpu() ? 12 : 64);
+      if (read_otherwise) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
       GaussianBlurParams image = separable;
       image.input = Input::image;
-      if (!quick_ && !session_.is_cpu()) add(scene, image, k, metric);
+      if (read_otherwise && !quick_ && !session_.is_cpu()) add(scene, image, k, metric);
       const int most = session_.is_cpu() ? (quick_ ? 4 : 10) : (quick_ ? 6 : 24);
-      if (separable.radius <= most && (!quick_ || k == 3))
+      if (separable.radius <= most && ((!quick_ && separable.radius <= 8) || k == 3))
         add(scene, params_for(*scene, sigma, k, format, GaussianVariant::direct), k, metric);
     }
   }
@@ -126,7 +126,7 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
       grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
     for (const double k : some_ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
-      if (!quick && !session.is_cpu())
+      if (!quick && !session.is_cpu() && k == 3 && sigma <= 12)
         grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1, GaussianVariant::sampler), k,
                  BlurMetric::half_l1);
     }

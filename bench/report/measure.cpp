@@ -96,7 +96,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
   for (const Scene& scene : image_files(settings, missing))
     files.push_back(std::make_shared<Scene>(middle_of(scene, settings.quick ? 256 : 512)));
 
-  // Beside devices the C++ execution is their oracle: what it could leave out, and how it compares, is of no use.
+  // Beside devices the C++ execution is their oracle, with their bits: whole scenes, what it could leave out, and how it
+  // compares, would only say the same again.
   const bool compares = !(session.is_cpu() && settings.devices.empty());
   std::vector<Job> jobs = limit_jobs(session);
   if (settings.wants("gaussian_blur")) {
@@ -148,11 +149,11 @@ int measure_device(const Settings& settings, const std::string& device, double b
       append(jobs, cone_peers(session));
     }
     append(jobs, stability_jobs(session, cases::cone_trace_cases()));
-    append(jobs, rendered_grid(session, missing));
+    if (compares) append(jobs, rendered_grid(session, missing));
   }
   if (settings.wants("hiz_ssr")) {
     append(jobs, screen_grid(session));
-    append(jobs, screen_truth_grid(session, missing));
+    if (compares) append(jobs, screen_truth_grid(session, missing));
     if (compares) {
       append(jobs, screen_left_out(session));
       append(jobs, screen_peers(session));

@@ -471,6 +471,10 @@ std::vector<Job> probe_grid(Session& session) {
     add("cornell", 64, {2, 2, 2}, true, 20000);
     return jobs;
   }
+  if (session.is_cpu()) {
+    for (const int size : {64, 256}) add("cornell", size, {2, 2, 2}, true);
+    return jobs;
+  }
   std::vector<std::string> names{"cornell", "two_rooms", "atrium"};
   if (!sponza().empty()) names.push_back("sponza");
   for (const std::string& name : names) {
