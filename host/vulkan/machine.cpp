@@ -75,7 +75,10 @@ Result<std::shared_ptr<Machine>> Machine::open(int index) {
 }
 
 Machine::~Machine() {
-  if (device_ != VK_NULL_HANDLE) vkDestroyDevice(device_, nullptr);
+  if (device_ == VK_NULL_HANDLE) return;
+  vkDeviceWaitIdle(device_);
+  for (const VkFence fence : fences_) vkDestroyFence(device_, fence, nullptr);
+  vkDestroyDevice(device_, nullptr);
 }
 
 Adopt Machine::handles() const {
@@ -97,23 +100,32 @@ int Machine::memory_type(std::uint32_t bits, VkMemoryPropertyFlags flags) const 
 
 Status Machine::run(VkCommandBuffer commands) {
   VkFence fence = VK_NULL_HANDLE;
-  const auto fence_info = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-  if (const VkResult result = vkCreateFence(device_, &fence_info, nullptr, &fence)) {
-    return failure("vulkan: vkCreateFence", result);
-  }
   auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
   submit.commandBufferCount = 1;
   submit.pCommandBuffers = &commands;
   VkResult result = VK_SUCCESS;
   {
     const std::lock_guard lock(queue_mutex_);
+    if (fences_.empty()) {
+      const auto info = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
+      if (const VkResult made = vkCreateFence(device_, &info, nullptr, &fence)) return failure("vulkan: vkCreateFence", made);
+    } else {
+      fence = fences_.back();
+      fences_.pop_back();
+    }
     result = vkQueueSubmit(queue_, 1, &submit, fence);
   }
   if (result == VK_SUCCESS) {
     result = vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
-    if (result != VK_SUCCESS) vkDeviceWaitIdle(device_);  // what runs may not lose its memory
   }
-  vkDestroyFence(device_, fence, nullptr);
+  const bool again = result == VK_SUCCESS && vkResetFences(device_, 1, &fence) == VK_SUCCESS;
+  const std::lock_guard lock(queue_mutex_);
+  if (again) {
+    fences_.push_back(fence);
+  } else {
+    vkDeviceWaitIdle(device_);  // where waiting failed, what runs may not lose its memory
+    vkDestroyFence(device_, fence, nullptr);
+  }
   if (result != VK_SUCCESS) return failure("vulkan: running on " + about_.name, result);
   return {};
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include <luxel/vulkan.h>
 
@@ -50,6 +51,9 @@ class Machine {
   std::uint64_t timestamp_mask_ = 0;
   bool push_descriptor_ = false;
   std::mutex queue_mutex_;
+  // Fences that nothing waits for, kept for the next run: a driver's thread may still look at one that has just been signalled
+  // (lavapipe's does), so that none is destroyed before the device is idle.
+  std::vector<VkFence> fences_;
 };
 
 /// Makes everything written so far visible to every later use, the host's too.
