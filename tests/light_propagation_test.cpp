@@ -176,7 +176,7 @@ void expect_active_equals_all(const ActiveSetting& s, const std::vector<std::str
 }
 
 // Few lights, many, none, beside borders, of c0 = 0; one in the middle of a long grid, one whose light comes back on the other
-// side, two far apart along each axis.
+// side, two far apart along each axis, two in a row.
 TEST(LightPropagation, ActiveCellsGiveTheBitsOfAll) {
   std::vector<std::string> devices = test_devices();
   devices.push_back("cpu:double");
@@ -187,7 +187,8 @@ TEST(LightPropagation, ActiveCellsGiveTheBitsOfAll) {
            {{16, 3, 3}, 2, 1000000, LpvLobes::linear, LpvBorder::open, false, true},
            {{70, 15, 14}, 2, 1, LpvLobes::linear, LpvBorder::open, true, true, {(7 * 15 + 6) * 70 + 40}},
            {{53, 14, 15}, 3, 1, LpvLobes::linear, LpvBorder::periodic, false, true, {(13 * 14 + 7) * 53 + 2}},
-           {{53, 20, 19}, 2, 1, LpvLobes::shrink, LpvBorder::open, false, true, {(8 * 20 + 7) * 53 + 18, (10 * 20 + 9) * 53 + 36}}})
+           {{53, 20, 19}, 2, 1, LpvLobes::shrink, LpvBorder::open, false, true, {(8 * 20 + 7) * 53 + 18, (10 * 20 + 9) * 53 + 36}},
+           {{53, 9, 8}, 2, 1, LpvLobes::linear, LpvBorder::open, false, true, {(4 * 9 + 4) * 53 + 3, (4 * 9 + 4) * 53 + 45}}})
     expect_active_equals_all(s, devices);
 }
 
