@@ -21,6 +21,7 @@ std::size_t lpv_geometry_pixels(const LpvGrid& g) {
 namespace {
 
 constexpr int lane_limit = 16;       // values of a wide, at most
+constexpr int box_words = 9;         // lpv_boxes: of a box
 constexpr int header_rows = 3;       // lpv_start: nothing, cells with a left neighbour, with a right one
 
 Status check_format(const char* field, Format format) {
@@ -145,7 +146,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
   if (p.active) {
     const int states = p.iterations + 2;  // steps made; the largest c0 before each step and after the last; then the bounds
     state = words(states + 6);
-    boxes = words(9.0 * (p.iterations + 1));
+    boxes = words(static_cast<double>(box_words) * (p.iterations + 1));
     for (Slot& flags : reached) flags = words(static_cast<double>(runs) * e[1] * e[2]);
     planner.pass("lpv_zero", "u32", "light_propagation zero", {8, 1, 1}, {8, 1, 1}, {{"count", states + 6}, {"stride", 8}}, {},
                  {{"words", state}});
@@ -210,7 +211,7 @@ Result<Plan> plan(const LpvPropagateParams& p, const Profile& profile) {
                    extent + s.values() + Planner::Values{{"geometry_pitch", g.pitch}, {"geometry_slice", g.slice}, {"geometry_plane", g.plane}} +
                        parameters,
                    constants + Planner::Values{{"LANES", lanes}}, slots);
-    if (p.active) planner.counts(boxes, 9 * static_cast<std::size_t>(step + 1));
+    if (p.active) planner.counts(boxes, box_words * static_cast<std::size_t>(step + 1));
     const double read = step == 0 ? coefficients(p) : carried(p);
     const double faces = p.bands == 3 ? 31 : 17;
     const double lobes = p.lobes == LpvLobes::clamp ? 30 : p.lobes == LpvLobes::shrink ? 14 : p.lobes == LpvLobes::rescale ? 150 : 0;

@@ -87,6 +87,11 @@ TEST(Devices, AMissingVulkanDriverSaysWhatToInstall) {
   expect_refusal(Context::open("riva tnt").status(), Code::missing_driver, "mesa-vulkan-drivers");
 }
 
+TEST(Devices, ValidationThatIsMisspeltIsNotSilence) {
+  const Variable odd("LUXEL_VALIDATION", "best practices");
+  expect_refusal(Context::open("vulkan").status(), Code::missing_driver, "LUXEL_VALIDATION is best practices; expected 0, 1 or best_practices");
+}
+
 TEST(Devices, AMissingValidationLayerSaysWhatToInstall) {
   const Variable on("LUXEL_VALIDATION", "1"), nowhere("VK_LAYER_PATH", "/nonexistent");
   expect_refusal(Context::open("vulkan").status(), Code::missing_driver, "vulkan-validationlayers");

@@ -16,13 +16,15 @@ namespace faults = luxel::faults;
     if (result == VK_SUCCESS) { made; }                                                        \
     return result;                                                                             \
   }
+#define DESTROYS(name, kind, parameters, arguments, handle)                     \
+  extern "C" VKAPI_ATTR void VKAPI_CALL name parameters {                       \
+    if (handle) --faults::alive[kind];                                          \
+    faults::next<std::remove_pointer_t<PFN_##name>>(#name) arguments;           \
+  }
 #define CREATES(name, Info, Handle)                                                                            \
   FAULTY(vkCreate##name, (VkDevice d, const Info* i, const VkAllocationCallbacks* a, Handle* h), (d, i, a, h), \
          ++faults::alive[#name])                                                                               \
-  extern "C" VKAPI_ATTR void VKAPI_CALL vkDestroy##name(VkDevice d, Handle h, const VkAllocationCallbacks* a) { \
-    if (h) --faults::alive[#name];                                                                             \
-    faults::next<std::remove_pointer_t<PFN_vkDestroy##name>>("vkDestroy" #name)(d, h, a);                      \
-  }
+  DESTROYS(vkDestroy##name, #name, (VkDevice d, Handle h, const VkAllocationCallbacks* a), (d, h, a), h)
 
 CREATES(Buffer, VkBufferCreateInfo, VkBuffer)
 CREATES(BufferView, VkBufferViewCreateInfo, VkBufferView)
@@ -72,11 +74,6 @@ extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkCreateComputePipelines(VkDevice d, V
   if (result == VK_SUCCESS) faults::alive["Pipeline"] += static_cast<int>(n);
   return result;
 }
-#define DESTROYS(name, kind, parameters, arguments, handle)                     \
-  extern "C" VKAPI_ATTR void VKAPI_CALL name parameters {                       \
-    if (handle) --faults::alive[kind];                                          \
-    faults::next<std::remove_pointer_t<PFN_##name>>(#name) arguments;           \
-  }
 DESTROYS(vkDestroyPipeline, "Pipeline", (VkDevice d, VkPipeline h, const VkAllocationCallbacks* a), (d, h, a), h)
 DESTROYS(vkFreeMemory, "Memory", (VkDevice d, VkDeviceMemory h, const VkAllocationCallbacks* a), (d, h, a), h)
 DESTROYS(vkDestroyDevice, "Device", (VkDevice h, const VkAllocationCallbacks* a), (h, a), h)

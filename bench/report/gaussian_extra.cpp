@@ -95,16 +95,13 @@ Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& f
   const auto pair = session.interleave(a.value(), b.value(), claim);
   if (!pair) return pair.status();
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
-  const bool kept = r.median >= value / close && r.median <= value * close;
   session.row("reproduction", {{"claim", claim},
                                {"source", source},
                                {"source_value", value},
                                {"measured", r.median},
                                {"q1", r.q1},
                                {"q3", r.q3},
-                               {"verdict", kept               ? "confirmed"
-                                           : r.median > value ? "more than claimed"
-                                                              : "less than claimed"},
+                               {"verdict", verdict(r.median, value, close)},
                                {"reason", reason},
                                {"device", session.device()}});
   return {};

@@ -153,8 +153,8 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   if (settings.wants("hiz_ssr")) {
     append(jobs, screen_grid(session));
-    if (compares) append(jobs, screen_truth_grid(session, missing));
     if (compares) {
+      append(jobs, screen_truth_grid(session, missing));
       append(jobs, screen_left_out(session));
       append(jobs, screen_peers(session));
     }

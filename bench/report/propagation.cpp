@@ -363,9 +363,13 @@ std::vector<Job> propagation_peers(Session& session) {
   const std::string& profile = session.context().profile().name;
   const Json triad_goal = profile == "pocl" ? Json(0.5) : Json(), copy_goal = profile == "lavapipe" ? Json(0.8) : Json();
   const int side = session.settings().quick ? 32 : 64;
-  const LpvPropagateParams p = setting(side, LpvLobes::linear, 2, Format::f32x4, 8);
-  return {{"light_propagation peer: triad", [=, &session] { return beside_limit(session, p, true, triad_goal); }},
-          {"light_propagation peer: copy", [=, &session] { return beside_limit(session, p, false, copy_goal); }}};
+  std::vector<Job> jobs;
+  for (const int bands : session.settings().quick ? std::vector<int>{2} : std::vector<int>{2, 3}) {
+    const LpvPropagateParams p = setting(side, LpvLobes::linear, bands, Format::f32x4, 8);
+    jobs.push_back({fmt::format("light_propagation peer: triad, {} bands", bands), [=, &session] { return beside_limit(session, p, true, triad_goal); }});
+    jobs.push_back({fmt::format("light_propagation peer: copy, {} bands", bands), [=, &session] { return beside_limit(session, p, false, copy_goal); }});
+  }
+  return jobs;
 }
 
 std::vector<BenchSetting> light_propagation_settings(const Profile& profile) {

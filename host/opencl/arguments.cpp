@@ -11,19 +11,14 @@ struct Properties {
   cl_int error = CL_SUCCESS;
 
   template <class T>
-  T value(cl_mem_info what) {
+  T value(cl_uint what, decltype(&clGetMemObjectInfo) query = clGetMemObjectInfo) {
     T result{};
-    const cl_int got = clGetMemObjectInfo(memory, what, sizeof result, &result, nullptr);
+    const cl_int got = query(memory, what, sizeof result, &result, nullptr);
     if (error == CL_SUCCESS) error = got;
     return result;
   }
   template <class T>
-  T image(cl_image_info what) {
-    T result{};
-    const cl_int got = clGetImageInfo(memory, what, sizeof result, &result, nullptr);
-    if (error == CL_SUCCESS) error = got;
-    return result;
-  }
+  T image(cl_uint what) { return value<T>(what, clGetImageInfo); }
 };
 
 std::string bytes_text(std::size_t bytes) { return std::to_string(bytes) + " bytes"; }

@@ -70,6 +70,10 @@ Status no_driver(const std::string& why) {
 
 Result<std::unique_ptr<Instance>> Instance::create() {
   const char* wanted = std::getenv("LUXEL_VALIDATION");
+  if (wanted && std::string_view(wanted) != "" && std::string_view(wanted) != "0" && std::string_view(wanted) != "1" &&
+      std::string_view(wanted) != "best_practices") {
+    return Status(Code::invalid_argument, std::string("vulkan: LUXEL_VALIDATION is ") + wanted + "; expected 0, 1 or best_practices");
+  }
   const bool best_practices = wanted && std::string_view(wanted) == "best_practices";
   const bool validate = best_practices || (wanted && std::string_view(wanted) == "1");
   if (validate && !has_layer(validation_layer)) {
