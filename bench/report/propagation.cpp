@@ -362,7 +362,7 @@ std::vector<Job> propagation_peers(Session& session) {
   if (session.is_cpu()) return {};
   const std::string& profile = session.context().profile().name;
   const Json triad_goal = profile == "pocl" ? Json(0.5) : Json(), copy_goal = profile == "lavapipe" ? Json(0.8) : Json();
-  const int side = session.settings().quick ? 32 : 64;
+  const int side = session.settings().quick || profile == "lavapipe" ? 32 : 64;  // lavapipe binds 128 MiB at most
   std::vector<Job> jobs;
   for (const int bands : session.settings().quick ? std::vector<int>{2} : std::vector<int>{2, 3}) {
     const LpvPropagateParams p = setting(side, LpvLobes::linear, bands, Format::f32x4, 8);
