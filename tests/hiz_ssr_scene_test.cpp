@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include "bench/scene/screen.h"
 #include "bench/truth/ssr_radiance.h"
@@ -42,7 +43,13 @@ struct Stage {
   }
 };
 
-class HizSsrScene : public testing::TestWithParam<std::string> {};
+class HizSsrScene : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const std::string file = scene_file(GetParam());
+    if (file != GetParam() && !std::filesystem::exists(file)) GTEST_SKIP() << file << " is missing; set LUXEL_DATA to the test data";
+  }
+};
 std::string text_of(const testing::TestParamInfo<std::string>& info) { return info.param; }
 INSTANTIATE_TEST_SUITE_P(Scenes, HizSsrScene, testing::Values("atrium", "Sponza"), text_of);
 

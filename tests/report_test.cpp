@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "bench/report/child.h"
+#include "bench/report/defaults.h"
 #include "bench/report/frontier.h"
 #include "bench/report/report.h"
 #include "bench/report/schema.h"
@@ -89,6 +90,33 @@ TEST(ReportFrontier, DominatesOnlyBeyondTheQuartiles) {
     EXPECT_EQ(rows[i]["on_frontier"], expected[i]) << i;
     EXPECT_FALSE(rows[i].contains("group"));
   }
+}
+
+TEST(ReportDefaults, SaysWhatBeatsADefaultAndWhyItIsOne) {
+  const auto ssr = [](const char* variant, double error, double ms) {
+    Json r = row("reach 2", error, ms, ms, ms);
+    r["kernel"] = "hiz_ssr";
+    r["variant"] = variant;
+    return r;
+  };
+  Json all = default_rows({ssr("linear", 0, 3), ssr("hiz", 0, 5), ssr("dda", 0, 4), ssr("stochastic", 1, 1)});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0]["setting"]["variant"], "hiz");
+  EXPECT_EQ(all[0]["better"]["setting"]["variant"], "linear");  // the fastest whose error is not larger
+  EXPECT_TRUE(all[0]["why"].is_string());
+  all = default_rows({ssr("linear", 1e-9, 3), ssr("hiz", 0, 5)});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_TRUE(all[0]["better"].is_null());
+  EXPECT_TRUE(all[0]["why"].is_null());
+  // Options and knobs count; a row that lacks one is no default.
+  Json cones = ssr("isotropic", 0, 1);
+  cones["kernel"] = "cone_trace";
+  EXPECT_EQ(default_rows({cones}).size(), 0u);
+  cones["options"] = {{"input", "buffer"}};
+  cones["knobs"] = {{"cones", "6"}, {"footprint", 0.25}, {"step_scale", 1}, {"error", 0}};
+  EXPECT_EQ(default_rows({cones}).size(), 1u);
+  cones["knobs"]["cones"] = "9";
+  EXPECT_EQ(default_rows({cones}).size(), 0u);
 }
 
 TEST(ReportFrontier, ErrorIsTheSumOfItsParts) {

@@ -38,8 +38,8 @@ report::Json to_json(const std::string& scene, const std::vector<scene::Decision
   for (const scene::Decision& d : decisions)
     json["plan"].push_back({{"kernel", d.kernel}, {"what", d.what}, {"runs", d.runs()}, {"level", d.level}, {"why", d.why}});
   for (const report::SceneSaving& s : savings)
-    json["left_out"].push_back({{"what", s.what}, {"level", s.level}, {"ms", report::to_json(s.whole)},
-                                {"saved_ms", report::to_json(s.saved)}, {"saved_bytes", s.saved_bytes}, {"error", s.error}});
+    json["left_out"].push_back({{"what", s.what}, {"level", s.level}, {"ms", report::cell_of(s.whole).json()},
+                                {"saved_ms", report::cell_of(s.saved).json()}, {"saved_bytes", s.saved_bytes}, {"error", s.error}});
   return json;
 }
 

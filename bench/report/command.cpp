@@ -18,7 +18,7 @@ void add_report(CLI::App& app, int& exit_status) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "report", "measure error against run time, stability and peers; write tables, JSON and a page");
-  command->add_flag("--quick", a->settings.quick, "fewer settings: about nine minutes on two cores");
+  command->add_flag("--quick", a->settings.quick, "fewer settings: about five minutes on two cores, where nothing else runs");
   command
       ->add_option("--device", a->settings.devices,
                    "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; "
@@ -49,11 +49,13 @@ void add_report(CLI::App& app, int& exit_status) {
   command->add_option("--measure", a->measure)->group("");
   command->add_option("--guard-best", a->best_guard)->group("");
   command->add_flag("--first", a->first)->group("");
+  command->add_flag("--oracle", a->settings.oracle)->group("");
   command->add_flag("--stability", a->settings.stability)->group("");
   command->footer(
       "Exit status: 0; 1 when a promise is broken or a device died; 2 for wrong use; 130 when interrupted.\n"
       "A report goes on where an earlier one in DIR ended: what was finished is kept, unless the text of its kernels, the\n"
       "device's driver or what is asked for is another. After changes elsewhere (host code, the report itself): --fresh.\n"
+      "Of the extreme cases a report shows the quick ones, on each driver those that go furthest; `luxel stability` has all.\n"
       "Errors are the same to the last digit in every run; times are medians with quartiles, taken again while the\n"
       "machine is busy. Photographs of the data folder that are absent are named and left out.");
   command->callback([a, &exit_status] {

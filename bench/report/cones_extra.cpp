@@ -81,7 +81,7 @@ Status beside_sampling(Session& session, const ConeSetting& s) {
                {"version", "-"},
                {"kernel", "cone_trace"},
                {"size", fmt::format("{0}x{0}x{0}", s.world->side)},
-               {"time_ms", to_json(summarise(pair.value().b))},
+               {"time_ms", cell_of(summarise(pair.value().b))},
                {"error", nullptr},
                {"ratio", ratio.median},
                {"q1", ratio.q1},
@@ -90,7 +90,7 @@ Status beside_sampling(Session& session, const ConeSetting& s) {
                {"options",
                 {{"format", name(s.params.format)},
                  {"variant", s.params.variant == ConeVariant::isotropic ? "isotropic" : "anisotropic"}}},
-               {"own_ms", to_json(summarise(pair.value().a))},
+               {"own_ms", cell_of(summarise(pair.value().a))},
                {"own_error", nullptr},
                {"goal", 0.7}});
   return {};

@@ -36,14 +36,14 @@ Status beside_dependent_reads(Session& session, const std::shared_ptr<cases::Run
                         {"version", "-"},
                         {"kernel", s.kernel},
                         {"size", s.size},
-                        {"time_ms", to_json(summarise(pair.value().b))},
+                        {"time_ms", cell_of(summarise(pair.value().b))},
                         {"error", nullptr},
                         {"ratio", ratio.median},
                         {"q1", ratio.q1},
                         {"q3", ratio.q3},
                         {"device", session.device()},
                         {"options", {{"variant", s.variant}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
+                        {"own_ms", cell_of(summarise(pair.value().a))},
                         {"own_error", nullptr},
                         {"goal", 0.5}});
   return {};

@@ -7,7 +7,7 @@ std::string variant_text(const BilateralParams& p) {
   return std::string(names[static_cast<int>(p.variant)]) + (p.adaptive ? ", adaptive" : "");
 }
 
-Json options_of(const BilateralParams& p) {
+Cell options_of(const BilateralParams& p) {
   return {{"format", name(p.format)},
           {"window", p.window == FilterWindow::circle ? "circle" : "square"},
           {"colour", p.range == RangeTerm::off    ? "off"
@@ -21,13 +21,13 @@ Json options_of(const BilateralParams& p) {
           {"adaptive", p.adaptive}};
 }
 
-Json knobs_of(const BilateralParams& p) {
-  Json knobs = {{"radius", p.radius}, {"step", p.step}, {"sigma_space", p.sigma_space}, {"sigma_range", p.sigma_range}};
+Cell knobs_of(const BilateralParams& p) {
+  Cell knobs = {{"radius", p.radius}, {"step", p.step}, {"sigma_space", p.sigma_space}, {"sigma_range", p.sigma_range}};
   if (p.variant == BilateralVariant::atrous) knobs = {{"levels", p.levels}, {"taps", p.taps}, {"sigma_luminance", p.sigma_luminance}};
-  if (p.variant == BilateralVariant::atrous && p.range != RangeTerm::off) knobs["sigma_range"] = p.sigma_range;
-  if (p.variant == BilateralVariant::grid) knobs["high"] = p.high;
-  if (p.depth != DepthTerm::off) knobs["sigma_depth"] = p.sigma_depth, knobs["footprint"] = p.footprint;
-  if (p.normal) knobs["sigma_normal"] = p.sigma_normal;
+  if (p.variant == BilateralVariant::atrous && p.range != RangeTerm::off) knobs.set("sigma_range", p.sigma_range);
+  if (p.variant == BilateralVariant::grid) knobs.set("high", p.high);
+  if (p.depth != DepthTerm::off) knobs.set("sigma_depth", p.sigma_depth), knobs.set("footprint", p.footprint);
+  if (p.normal) knobs.set("sigma_normal", p.sigma_normal);
   return knobs;
 }
 

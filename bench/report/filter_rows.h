@@ -6,15 +6,15 @@
 
 #include <luxel/bilateral.h>
 
-#include "bench/report/json.h"
+#include "bench/report/cell.h"
 #include "tests/cases/run.h"
 
 namespace luxel::report {
 
 /// "separable, adaptive".
 std::string variant_text(const BilateralParams& p);
-Json options_of(const BilateralParams& p);
-Json knobs_of(const BilateralParams& p);
+Cell options_of(const BilateralParams& p);
+Cell knobs_of(const BilateralParams& p);
 
 /// Writes those of the inputs that the plan has.
 Status write_inputs(cases::Run& run, std::initializer_list<std::pair<const char*, const std::vector<double>*>> inputs);

@@ -85,7 +85,7 @@ Status measure_filter(Session& session, const BilateralParams& p, int radius, co
     row.knobs = knobs_of(p);
     row.group = fmt::format("direct of radius {}", radius);
     row.error = error;
-    row.shade = to_json(ms.value());
+    row.shade = cell_of(ms.value());
     row.costs_of(made.value());
     session.frontier(row);
   }

@@ -99,7 +99,7 @@ std::vector<double> noise_left(const Render& r, const Values& color) {
   return {all / count, off / count_off};
 }
 
-void add_noise_rows(Session& session, const std::string& variant, Json options, Json knobs, const Sample& ms,
+void add_noise_rows(Session& session, const std::string& variant, Cell options, Cell knobs, const Sample& ms,
                     std::vector<ErrorSplit> errors, const Run* run) {
   for (ErrorSplit& error : errors) {
     FrontierRow row;
@@ -111,7 +111,7 @@ void add_noise_rows(Session& session, const std::string& variant, Json options, 
     row.knobs = knobs;
     row.group = "denoise";
     row.error = std::move(error);
-    row.shade = to_json(ms);
+    row.shade = cell_of(ms);
     if (run != nullptr) row.costs_of(*run);
     session.frontier(row);
   }
@@ -236,7 +236,7 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
     jobs.push_back({label, [&session, r, p, label] { return measure_noise(session, *r, p, label); }});
   };
   const bool quick = session.settings().quick;
-  for (const int radius : quick ? std::vector{6} : std::vector{2, 4, 6, 8, 12, 16}) {
+  for (const int radius : quick ? std::vector{6} : std::vector{2, 4, 6, 12}) {
     BilateralParams p = guided(*r, BilateralVariant::direct, radius);
     add(p, fmt::format("direct R {}", radius));
     if (radius >= 6 && !quick) {
@@ -271,7 +271,7 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
   }
   for (const bool clamp : quick ? std::vector<bool>{true} : std::vector<bool>{true, false})
     for (const int levels : quick ? std::vector{5} : std::vector{3, 4, 5})
-      for (const double sigma : quick ? std::vector{6.0} : std::vector{4.0, 6.0, 8.0}) {
+      for (const double sigma : quick || levels != 5 ? std::vector{6.0} : std::vector{4.0, 6.0, 8.0}) {
         DenoiseParams p;
         p.footprint = r->footprint;
         p.levels = levels;
@@ -282,7 +282,7 @@ std::vector<Job> denoise_grid(Session& session, std::vector<std::string>& missin
         jobs.push_back({label, [&session, r, p, label] { return measure_denoise(session, *r, p, label); }});
       }
   // Levels that are not run where noise is below a target.
-  for (const double target : quick ? std::vector{0.003} : std::vector{3e-4, 0.001, 0.003, 0.01, 0.03, 0.1}) {
+  for (const double target : quick ? std::vector{0.003} : std::vector{3e-4, 0.003, 0.03}) {
     DenoiseParams p;
     p.footprint = r->footprint;
     p.variance_target = target;

@@ -13,7 +13,7 @@ namespace luxel::report {
 
 struct OpenCvFilter {
   std::string name, version;
-  Json knobs;
+  Cell knobs;
   Session::Timed run;                           // the milliseconds of one call
   std::function<std::vector<double>()> result;  // of the last, 4 channels
 };

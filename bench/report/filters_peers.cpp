@@ -22,7 +22,7 @@ std::vector<Job> filter_peers(Session& session) {
     const bool joint = which == Peer::joint, bits8 = which == Peer::bits8 || which == Peer::bits8_opencl;
     if (which == Peer::bits8_opencl && !opencl) continue;
     if (bits8 && session.settings().quick) continue;  // ten times as long as ours: whole reports have it
-    Json goal;
+    Cell goal;
     if (profile == "pocl" && !bits8) goal = joint ? 5.0 : 3.5;
     if (profile == "lavapipe" && !bits8) goal = joint ? 2.0 : 1.2;
     jobs.push_back(
@@ -85,7 +85,7 @@ std::vector<Job> filter_peers(Session& session) {
                 {"version", peer.value().version},
                 {"kernel", "bilateral"},
                 {"size", "1920x1080"},
-                {"time_ms", to_json(summarise(pair.value().b))},
+                {"time_ms", cell_of(summarise(pair.value().b))},
                 {"error", cases::max_difference(crop(peer.value().result(), left, top, side), inner)},
                 {"ratio", ratio.median},
                 {"q1", ratio.q1},
@@ -93,7 +93,7 @@ std::vector<Job> filter_peers(Session& session) {
                 {"device", session.device()},
                 {"options",
                  {{"format", bits8 ? "unorm8, 3 channels" : "f32, 3 channels"}, {"diameter", 9}, {"window", "circle"}, {"norm", "l1"}}},
-                {"own_ms", to_json(summarise(pair.value().a))},
+                {"own_ms", cell_of(summarise(pair.value().a))},
                 {"own_error", cases::max_difference(crop(out.value(), left, top, side), inner)},
                 {"goal", goal}});
            return {};

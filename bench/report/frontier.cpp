@@ -30,19 +30,30 @@ Span total_time(const Json& row) {
   return span;
 }
 
+namespace {
+
+struct Point {
+  std::size_t row;
+  double error;
+  Span time;
+};
+
+bool beats(const Point& a, const Point& b) { return a.error <= b.error && a.time.q3 < b.time.q1; }
+
+}  // namespace
+
+bool beats(const Json& row, const Json& other) {
+  return beats(Point{0, total_error(row), total_time(row)}, Point{0, total_error(other), total_time(other)});
+}
+
 void mark_frontier(std::vector<Json>& rows) {
-  struct Point {
-    std::size_t row;
-    double error;
-    Span time;
-  };
   std::map<std::string, std::vector<Point>> groups;
   for (std::size_t i = 0; i < rows.size(); ++i)
     groups[rows[i].value("group", std::string())].push_back({i, total_error(rows[i]), total_time(rows[i])});
   for (const auto& [name, points] : groups)
     for (const Point& p : points) {
       bool beaten = !(p.error >= 0);  // a result that is not a number is on no frontier
-      for (const Point& other : points) beaten = beaten || (other.error <= p.error && other.time.q3 < p.time.q1);
+      for (const Point& other : points) beaten = beaten || beats(other, p);
       rows[p.row]["on_frontier"] = !beaten;
     }
   for (Json& row : rows) row.erase("group");

@@ -16,9 +16,12 @@ struct Span {
 };
 Span total_time(const Json& row);
 
+/// Whether a setting dominates another of its group: its error is not larger, and the third quartile of its time lies below the
+/// other's first.
+bool beats(const Json& row, const Json& other);
+
 /// Sets `on_frontier` of every row and takes `group` away. Rows compare within a group: equal receivers, format, size,
-/// metric and device. A setting dominates another where its error is not larger and the third quartile of its time lies
-/// below the other's first.
+/// metric and device.
 void mark_frontier(std::vector<Json>& rows);
 
 }  // namespace luxel::report

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "bench/report/defaults.h"
 #include "bench/report/frontier.h"
 #include "bench/report/report.h"
 #include "bench/report/schema.h"
@@ -131,6 +132,7 @@ std::string take_line(Gathered& g, const std::string& line) {
 }
 
 Json assemble(Gathered g, Json machine) {
+  Json defaults = default_rows(g.frontier);
   mark_frontier(g.frontier);
   machine["guard"] = {{"best_gflops", g.best_guard}, {"threshold", 0.9}, {"flagged", g.flagged}};
   machine["skipped"] = g.skipped;
@@ -141,6 +143,7 @@ Json assemble(Gathered g, Json machine) {
           {"machine", std::move(machine)},
           {"devices", std::move(g.devices)},
           {"frontier", g.frontier},
+          {"defaults", std::move(defaults)},
           {"stability", std::move(g.stability)},
           {"left_out", std::move(g.left_out)},
           {"peers", std::move(g.peers)},

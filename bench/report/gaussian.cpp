@@ -94,12 +94,12 @@ Result<std::vector<Oracle>> compute_oracle(Session& session, const BlurSetting& 
   return std::vector{oracle};
 }
 
-Json options_of(const GaussianBlurParams& p) {
+Cell options_of(const GaussianBlurParams& p) {
   return {{"format", name(p.format)},   {"border", cases::name(p.border)}, {"input", name_of(p.input)},
           {"difference", p.difference}, {"keep_alpha", p.keep_alpha},      {"drop_taps", p.drop_taps}};
 }
 
-Json knobs_of(const BlurSetting& s) {
+Cell knobs_of(const BlurSetting& s) {
   const GaussianBlurParams& p = s.params;
   switch (p.variant) {
     case GaussianVariant::recursive: return {{"sigma", p.sigma}, {"order", p.order}};
@@ -167,7 +167,7 @@ Status measure_blur(Session& session, const BlurSetting& s) {
   if (p.variant == GaussianVariant::separable && s.metric == BlurMetric::largest && !p.difference)
     session.promise_share("gaussian_blur", "rounding of the whole grid",
                           "float against double stays within (3R + 6) 2^-24 of the largest value",
-                          errors.value()[0].rounding.get<double>() / cases::rounding_bound(effective_radius(p)), where);
+                          errors.value()[0].rounding.number() / cases::rounding_bound(effective_radius(p)), where);
 
   FrontierRow row{"gaussian_blur",
                   cases::name(p.variant),
@@ -177,7 +177,7 @@ Status measure_blur(Session& session, const BlurSetting& s) {
                   knobs_of(s),
                   fmt::format("{} {} {}", name(p.format), cases::name(p.border), p.sigma),
                   errors.value()[0]};
-  row.shade = to_json(ms.value());
+  row.shade = cell_of(ms.value());
   row.costs_of(run);
   session.frontier(row);
   return {};
@@ -192,7 +192,7 @@ Result<Session::Timed> timed_blur(Session& session, const BlurSetting& s) {
   return timed(run);
 }
 
-Status beside_peer(Session& session, const BlurSetting& s, const GaussianPeer& peer, Json goal) {
+Status beside_peer(Session& session, const BlurSetting& s, const GaussianPeer& peer, Cell goal) {
   const auto own = timed_blur(session, s);
   if (!own) return own.status();
   const auto pair = session.interleave(own.value(), peer.run, "peer " + peer.name);
@@ -205,7 +205,7 @@ Status beside_peer(Session& session, const BlurSetting& s, const GaussianPeer& p
                         {"version", peer.version},
                         {"kernel", "gaussian_blur"},
                         {"size", size_text(s.params.width, s.params.height)},
-                        {"time_ms", to_json(summarise(pair.value().b))},
+                        {"time_ms", cell_of(summarise(pair.value().b))},
                         {"error", blur_error(s, source, peer.result())},
                         {"ratio", ratio.median},
                         {"q1", ratio.q1},
@@ -217,7 +217,7 @@ Status beside_peer(Session& session, const BlurSetting& s, const GaussianPeer& p
                           {"sigma", s.params.sigma},
                           {"variant", cases::name(s.params.variant)},
                           {"taps", 2 * peer.radius + 1}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
+                        {"own_ms", cell_of(summarise(pair.value().a))},
                         {"own_error", blur_error(s, source, result.value())},
                         {"goal", std::move(goal)}});
   return {};

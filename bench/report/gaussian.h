@@ -48,7 +48,7 @@ struct GaussianPeer {
 };
 
 /// Times a setting and a peer in turn, and makes a row of `peers`.
-Status beside_peer(Session& session, const BlurSetting& setting, const GaussianPeer& peer, Json goal);
+Status beside_peer(Session& session, const BlurSetting& setting, const GaussianPeer& peer, Cell goal);
 
 /// The error of values against the truth of a setting.
 double blur_error(const BlurSetting& setting, const std::vector<double>& source, const std::vector<double>& values);

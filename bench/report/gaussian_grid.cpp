@@ -33,20 +33,20 @@ class Grid {
       add(scene, separable, k, metric);
       // The same taps read otherwise, whose error is separable's, stand at one truncation. Interpolating in C++ costs many
       // times the reading of a texel.
-      const bool read_otherwise = k == 3 && separable.radius <= (quick_ || session_.is_cpu() ? 12 : 64);
+      const bool read_otherwise = k == 3 && separable.radius <= (quick_ || session_.is_cpu() ? 12 : 24);
       if (read_otherwise) add(scene, params_for(*scene, sigma, k, format, GaussianVariant::sampler), k, metric);
       GaussianBlurParams image = separable;
       image.input = Input::image;
       if (read_otherwise && !quick_ && !session_.is_cpu()) add(scene, image, k, metric);
-      const int most = session_.is_cpu() ? (quick_ ? 4 : 10) : (quick_ ? 6 : 24);
+      const int most = session_.is_cpu() ? (quick_ ? 4 : 10) : (quick_ ? 6 : 12);
       if (separable.radius <= most && ((!quick_ && separable.radius <= 8) || k == 3))
         add(scene, params_for(*scene, sigma, k, format, GaussianVariant::direct), k, metric);
     }
   }
 
-  // Variants whose cost does not grow with sigma, with the knobs that their error depends on.
-  void without_taps(const Shared& scene, double sigma, Format format, BlurMetric metric = BlurMetric::largest) {
-    const bool few = quick_ || session_.is_cpu();
+  // Variants whose cost does not grow with sigma, with the knobs that their error depends on, or as they are by default.
+  void without_taps(const Shared& scene, double sigma, Format format, bool all_knobs, BlurMetric metric = BlurMetric::largest) {
+    const bool few = quick_ || session_.is_cpu() || !all_knobs;
     for (int order = few ? 5 : 3; order <= 5; ++order) {
       GaussianBlurParams p = params_for(*scene, sigma, 0, format, GaussianVariant::recursive);
       p.order = order;
@@ -96,34 +96,35 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   const Settings& wanted = session.settings();
   const std::vector<double> sigmas =
       wanted.sigma > 0 ? std::vector<double>{wanted.sigma} : quick ? std::vector<double>{1, 4, 16} : std::vector<double>{0.5, 1, 2, 4, 8, 12, 16, 32};
+  // All knobs at three sigmas, whose curves the others repeat: each setting compiles programs of its own.
+  const auto thorough = [&](double sigma) { return wanted.sigma > 0 || sigma == 1 || sigma == 4 || sigma == 16; };
   const std::vector<double> ks = quick ? std::vector<double>{2, 3, 4} : std::vector<double>{1, 2, 3, 4, 5, 6};
-  const std::vector<double> some_ks = quick ? std::vector<double>{3} : std::vector<double>{1, 2, 3, 4, 5, 6};
+  const std::vector<double> some_ks = quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4, 5};
   Grid grid(session);
   const Shared small = std::make_shared<Scene>(landscape(quick ? 256 : 512, quick ? 256 : 512));
   const Shared main = wanted.width > 0 ? std::make_shared<Scene>(landscape(wanted.width, wanted.height)) : files.empty() ? small : files.front();
 
   for (const double sigma : sigmas) {
-    grid.ways(main, sigma, quick && sigma != 4 && wanted.sigma == 0 ? some_ks : ks, Format::f32x4);
-    if (!quick || sigma >= 4 || wanted.sigma > 0) grid.without_taps(main, sigma, Format::f32x4);
+    grid.ways(main, sigma, (quick && sigma != 4 && wanted.sigma == 0) || !thorough(sigma) ? some_ks : ks, Format::f32x4);
+    if (!quick || sigma >= 4 || wanted.sigma > 0) grid.without_taps(main, sigma, Format::f32x4, thorough(sigma));
   }
   if (wanted.sigma > 0) return grid.take();  // the rest is of other sigmas
   // Where taps are many, only so many as the coarser variants' errors ask for.
   if (!quick && !session.is_cpu())
     for (const double sigma : {64.0, 100.0}) {
-      for (const double k : {2.0, 3.0, 4.0}) grid.add(main, params_for(*main, sigma, k), k);
-      grid.without_taps(main, sigma, Format::f32x4);
+      for (const double k : sigma < 100 ? std::vector{2.0, 3.0, 4.0} : std::vector{3.0}) grid.add(main, params_for(*main, sigma, k), k);
+      grid.without_taps(main, sigma, Format::f32x4, false);
     }
   grid.copies(*main);
   for (std::size_t i = files.empty() ? files.size() : 1; i < files.size(); ++i)
-    for (const double sigma : quick ? std::vector<double>{4} : std::vector<double>{2, 8})
-      for (const double k : some_ks) grid.add(files[i], params_for(*files[i], sigma, k), k);
-  for (const double sigma : quick ? std::vector<double>{4} : sigmas) {
+    for (const double k : some_ks) grid.add(files[i], params_for(*files[i], quick ? 4 : 8, k), k);
+  for (const double sigma : quick ? std::vector<double>{4} : std::vector<double>{1, 4, 16}) {
     const Shared impulse = impulse_for(sigma);
     if (quick)
       for (const GaussianVariant variant : {GaussianVariant::recursive, GaussianVariant::box})
         grid.add(impulse, params_for(*impulse, sigma, 0, Format::f32x1, variant), 0, BlurMetric::half_l1);
     else
-      grid.without_taps(impulse, sigma, Format::f32x1, BlurMetric::half_l1);
+      grid.without_taps(impulse, sigma, Format::f32x1, sigma == 4, BlurMetric::half_l1);
     for (const double k : some_ks) {
       grid.add(impulse, params_for(*impulse, sigma, k, Format::f32x1), k, BlurMetric::half_l1);
       if (!quick && !session.is_cpu() && k == 3 && sigma <= 12)
@@ -136,13 +137,13 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
 
   // Formats, borders and options at one sigma.
   for (const Format format : cases::pixel_formats)
-    if (!quick) grid.without_taps(small, 4, format);
+    if (!quick) grid.without_taps(small, 4, format, false);
   const std::vector<Format> formats_at_4 = quick ? std::vector{Format::unorm8x4}
                                                  : std::vector(std::begin(cases::pixel_formats), std::end(cases::pixel_formats));
   for (const Format format : formats_at_4)
     for (const double k : quick ? std::vector<double>{3} : std::vector<double>{2, 3, 4})
       for (const GaussianVariant variant : {GaussianVariant::separable, GaussianVariant::sampler})
-        if (variant == GaussianVariant::separable || !(quick || session.is_cpu()))
+        if (variant == GaussianVariant::separable || (k == 3 && !(quick || session.is_cpu())))
           grid.add(small, params_for(*small, 4, k, format, variant), k);
   for (const Border border : {Border::mirror, Border::wrap, Border::zero}) {
     if (quick) continue;
@@ -179,7 +180,8 @@ std::vector<Job> gaussian_grid(Session& session, const std::vector<Shared>& file
   GaussianBlurParams image = params_for(*full_hd, 4, 3);
   image.input = Input::image;
   if (!session.is_cpu()) grid.add(full_hd, image, 3);
-  if (!session.is_cpu() && !quick)
+  // Not where a sampler is a program that takes seconds for it.
+  if (!session.is_cpu() && !quick && session.context().profile().name != "pocl")
     grid.add(full_hd, params_for(*full_hd, 4, 3, Format::f32x4, GaussianVariant::sampler), 3);
   grid.copies(*full_hd);
   return grid.take();

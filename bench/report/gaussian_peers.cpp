@@ -99,7 +99,7 @@ std::vector<Job> gaussian_peers(Session& session) {
   for (const Format format : {Format::f32x4, Format::f32x1}) {
     const BlurSetting s{scene, params_for(*scene, 4, 3, format), 3};
     // Goals for the two software drivers on the cores that OpenCV uses too; elsewhere there is none.
-    Json goal;
+    Cell goal;
     if (software && format == Format::f32x4) goal = opencl ? 2.5 : 1.0;
     if (software && format == Format::f32x1 && opencl) goal = 1.5;
     jobs.push_back({fmt::format("gaussian_blur peer OpenCV CPU {}", name(format)), [&session, s, goal] {
@@ -107,7 +107,7 @@ std::vector<Job> gaussian_peers(Session& session) {
                           [&] { return beside_peer(session, s, on_cpu(s, s.params.radius), goal); });
                     }});
     if (!opencl) continue;
-    goal = software && format == Format::f32x4 ? Json(4.0) : Json();
+    goal = software && format == Format::f32x4 ? Cell(4.0) : Cell();
     jobs.push_back({fmt::format("gaussian_blur peer OpenCV OpenCL {}", name(format)), [&session, s, goal] {
                       return caught([&] {
                         const auto peer = on_opencl(s, s.params.radius, session.device());
@@ -120,7 +120,7 @@ std::vector<Job> gaussian_peers(Session& session) {
   for (const GaussianVariant variant : {GaussianVariant::pyramid, GaussianVariant::recursive}) {
     BlurSetting s{scene, params_for(*scene, 12, 0, Format::f32x4, variant), 0};
     s.params.levels = -1;
-    const Json goal = software && opencl && variant == GaussianVariant::pyramid ? Json(4.0) : Json();
+    const Cell goal = software && opencl && variant == GaussianVariant::pyramid ? Cell(4.0) : Cell();
     jobs.push_back({fmt::format("gaussian_blur {} peer OpenCV CPU 85 taps", cases::name(variant)), [&session, s, goal] {
                       return caught([&] { return beside_peer(session, s, on_cpu(s, taps_85), goal); });
                     }});

@@ -52,7 +52,7 @@ Plan one_pass(const char* name, const Module* module, std::vector<Resource> reso
 
 int lanes_of(const Profile& profile, Format format) { return std::max(profile.pixels.lanes, channels(format)); }
 
-Json entry(const char* what, const std::string& size, double bytes_per_pixel, const std::string& form, const Sample& ms,
+Cell entry(const char* what, const std::string& size, double bytes_per_pixel, const std::string& form, const Sample& ms,
            double work, const char* unit) {
   return {{"what", what},
           {"size", size},
@@ -99,7 +99,8 @@ Status measure_triad(Session& session) {
 }
 
 Status measure_copy(Session& session, const std::string& size, int width, int height, int bytes) {
-  Json best;
+  Cell best;
+  double most = 0;
   for (const CopyForm& form : copy_forms(session)) {
     auto run = cases::Run::make(session.context(), copy_plan(width, height, bytes, form, session.context().profile()));
     if (!run) return run.status();
@@ -110,8 +111,9 @@ Status measure_copy(Session& session, const std::string& size, int width, int he
     const Result<Sample> ms =
         session.time(run.value(), fmt::format("limit copy {} of {} bytes, {}", size, bytes, form.name));
     if (!ms) return ms.status();
-    const Json e = entry("copy", size, bytes, form.name, ms.value(), 2.0 * width * height * bytes, "GB/s");
-    if (best.is_null() || e["rate"] > best["rate"]) best = e;
+    const double rate = 1 / ms.value().median;
+    if (rate > most) best = entry("copy", size, bytes, form.name, ms.value(), 2.0 * width * height * bytes, "GB/s");
+    most = std::max(most, rate);
   }
   session.note("limits", best);
   return {};
@@ -225,7 +227,7 @@ void add_copies(Session& session, std::vector<Job>& jobs, const std::string& siz
                     [=, &session] { return measure_copy(session, size, width, rows, bytes); }});
 }
 
-Json machine_limits(bool quick) {
+std::vector<Cell> machine_limits(bool quick) {
   const std::size_t count = std::size_t{16} << 20;  // 64 MiB: beyond any cache here
   std::vector<float> a(count, 1.0f), b(count, 2.0f), c(count, 3.0f);
   const auto on_two = [&](auto work) {

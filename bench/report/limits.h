@@ -56,6 +56,6 @@ struct ProbeReads {
 Result<Plan> probe_reads_plan(const ProbeReads& reads, const Profile& profile);
 
 /// Copy, triad and fused multiply-adds by plain C++ on two threads: entries like those of `devices[].limits`.
-Json machine_limits(bool quick);
+std::vector<Cell> machine_limits(bool quick);
 
 }  // namespace luxel::report

@@ -38,17 +38,17 @@ std::string knobs_text(const Setting& s) {
                      s.damping > 0 ? " damped" : "", s.filter > 0 ? " filtered" : "", s.gain != 1 ? " gain 2/3" : "");
 }
 
-Json knobs(const Setting& s) {
-  Json k = {{"resolution", s.cells}, {"steps", s.steps}};
-  if (s.cascades > 1) k["cascades"] = s.cascades;
-  if (s.offset != 0.5) k["offset"] = s.offset;
-  if (s.damping > 0) k["damping"] = s.damping;
-  if (s.filter > 0) k["filter"] = s.filter;
-  if (s.gain != 1) k["gain"] = s.gain;
+Cell knobs(const Setting& s) {
+  Cell k = {{"resolution", s.cells}, {"steps", s.steps}};
+  if (s.cascades > 1) k.set("cascades", s.cascades);
+  if (s.offset != 0.5) k.set("offset", s.offset);
+  if (s.damping > 0) k.set("damping", s.damping);
+  if (s.filter > 0) k.set("filter", s.filter);
+  if (s.gain != 1) k.set("gain", s.gain);
   return k;
 }
 
-Json options(const Setting& s) {
+Cell options(const Setting& s) {
   return {{"format", "f16x4"}, {"bands", s.bands}, {"blockers", blocker_names[static_cast<int>(s.blockers)]}, {"without injected", !s.keep}};
 }
 
@@ -168,9 +168,9 @@ Status stage_row(Session& session, const Place& place, const Setting& s) {
   row.error.discretization = relative(v, v, stage.t1, stage.t2, stage.mean).value;
   row.error.model = relative(x, x, v, v, stage.mean).value;
   row.error.standard_error = method.error;
-  row.build = to_json(summarise({m.build}));
-  row.update = to_json(summarise(m.update));
-  row.shade = to_json(summarise(m.shade));
+  row.build = cell_of(summarise({m.build}));
+  row.update = cell_of(summarise(m.update));
+  row.shade = cell_of(summarise(m.shade));
   row.memory = m.memory;
   session.frontier(row);
   return {};
@@ -190,21 +190,22 @@ Status leak_row(Session& session, const Setting& s) {
   if (!measured) return measured.status();
   const Measured& m = measured.value();
   const Leak l = leak(stage, m.irradiance, 3);
-  Json k = knobs(s);
-  k["lit_room"] = l.lit;
-  k["lit_room_error"] = l.relative;
+  Cell k = knobs(s);
+  k.set("lit_room", l.lit);
+  k.set("lit_room_error", l.relative);
   FrontierRow row{"light_propagation", lobe_names[static_cast<int>(s.lobes)], "two_rooms (generated)", fmt::format("{} receivers", stage.count()),
                   options(s), k, "leaks", {leak_metric}};
   row.error.method = l.dark;
-  row.build = to_json(summarise({m.build}));
-  row.update = to_json(summarise(m.update));
-  row.shade = to_json(summarise(m.shade));
+  row.build = cell_of(summarise({m.build}));
+  row.update = cell_of(summarise(m.update));
+  row.shade = cell_of(summarise(m.shade));
   row.memory = m.memory;
   session.frontier(row);
   return {};
 }
 
-std::vector<Setting> settings_of(Session& session) {
+// All knobs in one scene; in the others what depends on the scene most.
+std::vector<Setting> settings_of(Session& session, bool all_knobs) {
   std::vector<Setting> all;
   const auto add = [&](auto change) {
     Setting s;
@@ -216,9 +217,10 @@ std::vector<Setting> settings_of(Session& session) {
     if (!session.is_cpu()) add([](Setting& s) { s.cells = s.steps = 16, s.blockers = LpvBlockers::none; });
     return all;
   }
-  for (const int n : {8, 16, 32, 64})
+  for (const int n : all_knobs ? std::vector{8, 16, 32, 64} : std::vector{16, 32})
     for (const LpvBlockers b : {LpvBlockers::none, LpvBlockers::surfaces, LpvBlockers::maps})
       add([&](Setting& s) { s.cells = s.steps = n, s.blockers = b; });
+  if (!all_knobs) return all;
   for (const int steps : {8, 16, 64, 128}) add([&](Setting& s) { s.steps = steps; });
   for (const LpvLobes l : {LpvLobes::clamp, LpvLobes::shrink, LpvLobes::rescale}) add([&](Setting& s) { s.lobes = l; });
   add([](Setting& s) { s.bands = 3; });
@@ -235,10 +237,13 @@ std::vector<Setting> settings_of(Session& session) {
 
 std::vector<Job> lpv_scene_grid(Session& session, std::vector<std::string>& missing) {
   std::vector<Job> jobs;
-  for (const Place& place : places(missing))
-    for (const Setting& s : settings_of(session))
+  bool first = true;
+  for (const Place& place : places(missing)) {
+    for (const Setting& s : settings_of(session, first))
       jobs.push_back({fmt::format("light_propagation {} in {}", knobs_text(s), place.name),
                       [&session, place, s] { return stage_row(session, place, s); }});
+    first = false;
+  }
   std::vector<Setting> leaking;
   const bool small = session.settings().quick || session.is_cpu();
   for (const int n : small ? std::vector<int>{16} : std::vector<int>{16, 32, 64})

@@ -17,6 +17,7 @@
 #include "bench/report/voxels.h"
 #include "bench/report/pictures.h"
 #include "bench/report/profile_file.h"
+#include "bench/report/quick.h"
 #include "bench/report/probes.h"
 #include "bench/report/probe_light.h"
 #include "bench/report/rendered.h"
@@ -72,7 +73,7 @@ void keep_only(const Settings& settings, std::vector<Job>& jobs) {
 
 }  // namespace
 
-int measure_device(const Settings& settings, const std::string& device, double best_guard, bool first) {
+int measure_device(Settings settings, const std::string& device, double best_guard, bool first) {
   std::signal(SIGPIPE, SIG_IGN);
   Result<std::shared_ptr<Context>> opened = Context::open(device);
   if (!opened) {
@@ -81,6 +82,13 @@ int measure_device(const Settings& settings, const std::string& device, double b
   }
   std::string problem;
   const auto context = tuned(opened.value(), &problem);
+  // `luxel stability` has all cases; of drivers, which compile each, a report shows those that go furthest.
+  settings.slow_cases = settings.stability && !settings.quick;
+  if (context->info().api != Api::cpu && !settings.slow_cases) settings.most_cases = settings.quick ? 6 : 24;
+  // Beside devices the C++ execution is their oracle, with their bits: few settings of it are timed, and whole scenes, what
+  // it could leave out, and how it compares would only say the same again.
+  const bool compares = !settings.oracle;
+  if (settings.oracle && !settings.stability) settings.quick = true;
   Session session(context, settings, child_fd, best_guard);
   if (!problem.empty()) session.note("problems", problem);
   if (settings.stability) {
@@ -96,9 +104,6 @@ int measure_device(const Settings& settings, const std::string& device, double b
   for (const Scene& scene : image_files(settings, missing))
     files.push_back(std::make_shared<Scene>(middle_of(scene, settings.quick ? 256 : 512)));
 
-  // Beside devices the C++ execution is their oracle, with their bits: whole scenes, what it could leave out, and how it
-  // compares, would only say the same again.
-  const bool compares = !(session.is_cpu() && settings.devices.empty());
   std::vector<Job> jobs = limit_jobs(session);
   if (settings.wants("gaussian_blur")) {
     append(jobs, gaussian_grid(session, files));
@@ -131,7 +136,10 @@ int measure_device(const Settings& settings, const std::string& device, double b
       append(jobs, mip_peers(session));
     }
     append(jobs, stability_jobs(session, cases::mip_build_cases()));
-    if (first) append(jobs, mip_pictures(session, scenes));
+    if (first) {
+      append(jobs, mip_marches(session, scenes));
+      append(jobs, mip_pictures(session, scenes));
+    }
   }
   if (settings.wants("voxelize")) {
     append(jobs, voxel_jobs(session));
@@ -193,6 +201,7 @@ int measure_device(const Settings& settings, const std::string& device, double b
   for (const std::string& line : missing)
     if (session.first_time(line)) session.note("skipped", line);
   keep_only(settings, jobs);
+  if (settings.quick && settings.only.empty()) keep_quick(jobs);
   session.run(jobs);
   session.emit_promises();
   return 0;

@@ -7,6 +7,6 @@
 namespace luxel::report {
 
 /// `device`: as Context::open takes it. `first`: this child also makes the pictures. Returns the process's exit status.
-int measure_device(const Settings& settings, const std::string& device, double best_guard, bool first);
+int measure_device(Settings settings, const std::string& device, double best_guard, bool first);
 
 }  // namespace luxel::report

@@ -105,13 +105,13 @@ Result<std::vector<Oracle>> compute_oracles(Session& session, const MipSetting& 
   return oracles;
 }
 
-Json options_of(const MipBuildParams& p) {
-  Json options{{"format", name(p.format)}, {"input", p.input == Input::image ? "image" : "buffer"}};
+Cell options_of(const MipBuildParams& p) {
+  Cell options{{"format", name(p.format)}, {"input", p.input == Input::image ? "image" : "buffer"}};
   if (p.variant == MipVariant::min || p.variant == MipVariant::max || p.variant == MipVariant::minmax) {
-    options["sizes"] = p.sizes == MipSizes::ceil ? "ceil" : "floor";
-    options["ratio"] = p.ratio;
+    options.set("sizes", p.sizes == MipSizes::ceil ? "ceil" : "floor");
+    options.set("ratio", p.ratio);
   }
-  if (p.variant == MipVariant::gaussian3) options["samples"] = p.samples == MipSamples::vertices ? "vertices" : "cells";
+  if (p.variant == MipVariant::gaussian3) options.set("samples", p.samples == MipSamples::vertices ? "vertices" : "cells");
   return options;
 }
 
@@ -181,8 +181,8 @@ Status measure_mips(Session& session, const MipSetting& s, bool drift) {
                     fmt::format("{} {} {} {} {}", cases::name(p.variant), name(p.format), static_cast<int>(p.sizes),
                                 p.ratio, static_cast<int>(p.samples)),
                     errors.value()[level]};
-    if (level > 0) row.knobs["level"] = level;
-    row.build = to_json(ms.value());
+    if (level > 0) row.knobs.set("level", level);
+    row.build = cell_of(ms.value());
     row.costs_of(run);
     session.frontier(row);
   }

@@ -63,6 +63,7 @@ std::vector<Job> mip_grid(Session& session, const MipScenes& scenes);
 std::vector<Job> mip_left_out(Session& session, const MipScenes& scenes);
 std::vector<Job> mip_reproduction(Session& session, const MipScenes& scenes);
 std::vector<Job> mip_peers(Session& session);
+std::vector<Job> mip_marches(Session& session, const MipScenes& scenes);
 std::vector<Job> mip_pictures(Session& session, const MipScenes& scenes);
 
 }  // namespace luxel::report

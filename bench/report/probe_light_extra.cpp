@@ -204,14 +204,14 @@ Status beside_reads(Session& session, int corners) {
                         {"version", "-"},
                         {"kernel", "probe_shade"},
                         {"size", fmt::format("{} receivers", w.pixels())},
-                        {"time_ms", to_json(summarise(pair.value().b))},
+                        {"time_ms", cell_of(summarise(pair.value().b))},
                         {"error", nullptr},
                         {"ratio", ratio.median},
                         {"q1", ratio.q1},
                         {"q3", ratio.q3},
                         {"device", session.device()},
                         {"options", {{"format", "f16"}, {"ns_a_receiver", summarise(pair.value().a).median * 1e6 / receivers}}},
-                        {"own_ms", to_json(summarise(pair.value().a))},
+                        {"own_ms", cell_of(summarise(pair.value().a))},
                         {"own_error", nullptr},
                         {"goal", 1.0 / 3}});
   return {};

@@ -216,7 +216,7 @@ Status measure(Session& session, const std::string& name, std::size_t rays, int 
                    {"unknown", a.unknown}, {"capped", a.capped}, {"probes_a_ray", a.probes}, {"looks_a_ray", a.steps},
                    {"ns_a_ray", ms.value().median * 1e6 / static_cast<double>(rays)}},
                   "rays off surfaces", errors.value()[0]};
-  row.shade = to_json(ms.value());
+  row.shade = cell_of(ms.value());
   ProbeBuildParams b;
   b.maps = compact(size);
   b.probes = static_cast<int>(f->probes.size());
@@ -228,7 +228,7 @@ Status measure(Session& session, const std::string& name, std::size_t rays, int 
   if (Status s = build.value().write("normal_source", f->values.normal); !s) return s;
   const Result<Sample> built = session.time(build.value(), where + " build");
   if (!built) return built.status();
-  row.build = to_json(built.value());
+  row.build = cell_of(built.value());
   row.costs_of(*run.value());
   session.frontier(row);
   return {};
@@ -312,7 +312,7 @@ Status save_matte(Session& session, const std::string& name, std::size_t rays, i
   return {};
 }
 
-void claim(Session& session, const std::string& text, const std::string& source, Json source_value, Json measured, Json q1, Json q3,
+void claim(Session& session, const std::string& text, const std::string& source, Cell source_value, Cell measured, Cell q1, Cell q3,
            bool confirmed, const std::string& reason) {
   session.row("reproduction", {{"claim", text},
                                {"source", source},
@@ -428,14 +428,14 @@ Status beside_embree(Session& session, const std::string& name, std::size_t rays
                         {"version", "3"},
                         {"kernel", "octahedral_march"},
                         {"size", fmt::format("{} rays, {} {}^2", rays, name, size)},
-                        {"time_ms", to_json(theirs)},
+                        {"time_ms", cell_of(theirs)},
                         {"error", 0},
                         {"ratio", r.median},
                         {"q1", r.q1},
                         {"q3", r.q3},
                         {"device", session.device()},
                         {"options", {{"probes", f->probes.size()}}},
-                        {"own_ms", to_json(ours)},
+                        {"own_ms", cell_of(ours)},
                         {"own_error", nullptr},
                         {"goal", nullptr}});
   return {};

@@ -152,7 +152,7 @@ Status measure(Session& session, const LpvPropagateParams& p) {
                     {{"format", luxel::name(p.format)}, {"channels", p.channels}},
                     {{"bands", p.bands}, {"iterations", p.iterations}},
                     metric == 0 ? fmt::format("{} steps", p.iterations) : "any", errors.value()[metric]};
-    row.update = to_json(ms.value());
+    row.update = cell_of(ms.value());
     row.costs_of(*run.value());
     session.frontier(row);
   }
@@ -199,7 +199,7 @@ double lit_share(int side, int steps) {
   return lit / steps / (static_cast<double>(side) * side * side);
 }
 
-Json row_of(Session& session, const std::string& peer, const LpvPropagateParams& p, const Session::Pair& pair, double scale, Json goal) {
+Cell row_of(Session& session, const std::string& peer, const LpvPropagateParams& p, const Session::Pair& pair, double scale, Cell goal) {
   std::vector<double> r = ratios(pair.b, pair.a);
   for (double& v : r) v *= scale;
   const Sample ratio = summarise(r);
@@ -207,20 +207,20 @@ Json row_of(Session& session, const std::string& peer, const LpvPropagateParams&
           {"version", "-"},
           {"kernel", "light_propagation"},
           {"size", fmt::format("{0}x{0}x{0}", p.grid.extent[0])},
-          {"time_ms", to_json(summarise(pair.b))},
+          {"time_ms", cell_of(summarise(pair.b))},
           {"error", nullptr},
           {"ratio", ratio.median},
           {"q1", ratio.q1},
           {"q3", ratio.q3},
           {"device", session.device()},
           {"options", {{"bands", p.bands}, {"format", luxel::name(p.format)}, {"iterations", p.iterations}}},
-          {"own_ms", to_json(summarise(pair.a))},
+          {"own_ms", cell_of(summarise(pair.a))},
           {"own_error", nullptr},
           {"goal", std::move(goal)}};
 }
 
 // A copy or triad of as many bytes as the plan has to move at least.
-Status beside_limit(Session& session, const LpvPropagateParams& p, bool triad, Json goal) {
+Status beside_limit(Session& session, const LpvPropagateParams& p, bool triad, Cell goal) {
   Values light = point_light(p);
   const auto own = ready(session.context(), p, light);
   if (!own) return own.status();
@@ -228,7 +228,8 @@ Status beside_limit(Session& session, const LpvPropagateParams& p, bool triad, J
   const int width = 1024, height = static_cast<int>(bytes / moved / width);
   const double scale = bytes / (moved * width * height);
   const Values half(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 0.5);
-  Json best;
+  Cell best;
+  double least = HUGE_VAL;  // ms
   const auto beside = [&](const std::string& name, const Result<Plan>& plan, std::initializer_list<const char*> inputs) -> Status {
     Result<Run> made = Run::make(session.context(), plan);
     if (!made) return made.status();
@@ -237,8 +238,9 @@ Status beside_limit(Session& session, const LpvPropagateParams& p, bool triad, J
       if (Status s = run->write(input, half); !s) return s;
     const auto pair = session.interleave(timed(own.value()), timed(run), "peer: " + name);
     if (!pair) return pair.status();
-    const Json row = row_of(session, name, p, pair.value(), scale, goal);
-    if (best.is_null() || row["time_ms"]["median"] < best["time_ms"]["median"]) best = row;
+    const double ms = summarise(pair.value().b).median;
+    if (ms < least) best = row_of(session, name, p, pair.value(), scale, goal);
+    least = std::min(least, ms);
     return {};
   };
   const Profile& profile = session.context().profile();
@@ -361,7 +363,7 @@ std::vector<Job> propagation_reproduction(Session& session) {
 std::vector<Job> propagation_peers(Session& session) {
   if (session.is_cpu()) return {};
   const std::string& profile = session.context().profile().name;
-  const Json triad_goal = profile == "pocl" ? Json(0.5) : Json(), copy_goal = profile == "lavapipe" ? Json(0.8) : Json();
+  const Cell triad_goal = profile == "pocl" ? Cell(0.5) : Cell(), copy_goal = profile == "lavapipe" ? Cell(0.8) : Cell();
   const int side = session.settings().quick || profile == "lavapipe" ? 32 : 64;  // lavapipe binds 128 MiB at most
   std::vector<Job> jobs;
   for (const int bands : session.settings().quick ? std::vector<int>{2} : std::vector<int>{2, 3}) {

@@ -32,12 +32,18 @@ int misuse(const std::string& message) { return complain(message, 2); }
 
 std::string this_program() { return fs::read_symlink("/proc/self/exe").string(); }
 
-std::vector<std::string> child_arguments(const Settings& s, const std::string& device, double best, bool first) {
-  std::vector<std::string> argv{this_program(),          "report", "--measure", device, "--guard-best",
+// What measure_device is told of a device's part in the report.
+struct Role {
+  bool oracle, first;
+};
+
+std::vector<std::string> child_arguments(const Settings& s, const std::string& name, const Role& role, double best) {
+  std::vector<std::string> argv{this_program(),          "report", "--measure", name, "--guard-best",
                                 fmt::format("{}", best), "-o",     s.out};
+  if (role.oracle) argv.push_back("--oracle");
+  if (role.first) argv.push_back("--first");
   if (s.quick) argv.push_back("--quick");
   if (s.stability) argv.push_back("--stability");
-  if (first) argv.push_back("--first");
   for (const std::string& kernel : s.kernels) argv.insert(argv.end(), {"--kernel", kernel});
   for (const std::string& image : s.images) argv.insert(argv.end(), {"--image", image});
   for (const std::string& text : s.only) argv.insert(argv.end(), {"--only", text});
@@ -89,7 +95,7 @@ std::string longest_jobs(const Gathered& gathered, const std::string& device) {
   return text;
 }
 
-void measure(const Settings& s, const DeviceInfo& device, const std::string& name, bool first, Gathered& gathered,
+void measure(const Settings& s, const DeviceInfo& device, const std::string& name, const Role& role, Gathered& gathered,
              Progress& progress, std::ofstream& rows) {
   const int kept = gathered.from_before, of = gathered.of;
   gathered.devices.push_back(device_row(device));
@@ -97,7 +103,7 @@ void measure(const Settings& s, const DeviceInfo& device, const std::string& nam
   std::vector<std::string> environment = child_environment(s);
   environment.push_back(opencv_device(device));
   const std::string log = fmt::format("{}/device_{}.log", s.out, gathered.devices.size() - 1);
-  const Ended ended = run_child(child_arguments(s, name, gathered.best_guard, first), environment, log, silence_s,
+  const Ended ended = run_child(child_arguments(s, name, role, gathered.best_guard), environment, log, silence_s,
                                 [&](const std::string& line) {
                                   if (const std::string row = take_line(gathered, line); !row.empty())
                                     rows << row << std::endl;
@@ -220,12 +226,16 @@ int run_report(const Settings& settings) {
     for (const std::string& problem : listing.problems) progress.line(problem);
   Json about = machine();
   about["quick"] = settings.quick;
-  about["limits"] = settings.stability ? Json::array() : machine_limits(settings.quick);
-  if (!settings.stability) gathered.best_guard = about["limits"].back()["rate"].get<double>();
+  about["limits"] = Json::array();
+  if (!settings.stability) {
+    for (const Cell& limit : machine_limits(settings.quick)) about["limits"].push_back(limit.json());
+    gathered.best_guard = about["limits"].back()["rate"].get<double>();
+  }
   bool first = true;
   for (const DeviceInfo& device : chosen.value()) {
-    measure(settings, device, name_to_open(device, listing.devices), first, gathered, progress, rows);
-    first = false;
+    const bool oracle = settings.devices.empty() && device.api == Api::cpu && chosen.value().size() > 1;
+    measure(settings, device, name_to_open(device, listing.devices), {oracle, first && !oracle}, gathered, progress, rows);
+    first = first && oracle;
     if (interrupted()) {
       progress.end();
       return say_interrupted(settings, gathered, chosen.value());

@@ -34,6 +34,17 @@ const std::map<std::string, Fields>& sections() {
         {"flops", "n?"},
         {"memory_bytes", "n?"},
         {"on_frontier", "b?"}}},
+      {"defaults",
+       {{"kernel", "s"},
+        {"device", "s"},
+        {"scene", "s"},
+        {"size", "s"},
+        {"metric", "s"},
+        {"setting", "o"},
+        {"error", "n?"},
+        {"ms", "n"},
+        {"better", "o?"},
+        {"why", "s?"}}},
       {"stability",
        {{"kernel", "s"},
         {"case", "s"},
@@ -142,13 +153,13 @@ std::vector<std::string> check_row(const std::string& section, const Json& row) 
 
 std::vector<std::string> check_schema(const Json& report) {
   std::vector<std::string> wrong;
-  const Fields top{{"schema", "s"},    {"machine", "o"},  {"devices", "a"}, {"frontier", "a"},
+  const Fields top{{"schema", "s"},    {"machine", "o"},  {"devices", "a"}, {"frontier", "a"}, {"defaults", "a"},
                    {"stability", "a"}, {"left_out", "a"}, {"peers", "a"},   {"reproduction", "a"}};
   check_fields("report", report, top, wrong);
   if (!wrong.empty()) return wrong;
   if (report["schema"] != schema_name)
     wrong.push_back("report.schema is " + report["schema"].dump() + "; expected " + schema_name);
-  for (const char* section : {"devices", "frontier", "stability", "left_out", "peers", "reproduction"})
+  for (const char* section : {"devices", "frontier", "defaults", "stability", "left_out", "peers", "reproduction"})
     for (std::size_t i = 0; i < report[section].size(); ++i)
       for (const std::string& line : check_row(section, report[section][i]))
         wrong.push_back("row " + std::to_string(i) + ": " + line);

@@ -152,15 +152,15 @@ Status measure(Session& session, int width, int height, SsrVariant variant, doub
   FrontierRow row{"hiz_ssr", name(variant), "atrium", fmt::format("{}x{}", width, height), {{"depth", "linear"}},
                   {{"max_distance", reach}, {"looks_a_ray", looks / rays}, {"ns_a_ray", ms.value().median * 1e6 / rays}},
                   fmt::format("reach {}", reach), errors.value()[0]};
-  if (variant == SsrVariant::linear) row.knobs["steps"] = steps;
-  row.shade = to_json(ms.value());
+  if (variant == SsrVariant::linear) row.knobs.set("steps", steps);
+  row.shade = cell_of(ms.value());
   if (hiz_ssr_levels(p) > 1) {
     auto pyramid = Run::make(session.context(), plan(hiz_ssr_pyramid(p), session.context().profile()));
     if (!pyramid) return pyramid.status();
     if (Status s = pyramid.value().write("level_0", world.depth); !s) return s;
     const Result<Sample> build = session.time(pyramid.value(), where + " pyramid");
     if (!build) return build.status();
-    row.build = to_json(build.value());
+    row.build = cell_of(build.value());
   }
   row.costs_of(*run.value());
   session.frontier(row);

@@ -77,8 +77,8 @@ Status measure(Session& session, const Place& place, SsrVariant variant, bool sk
   row.error.discretization = e.part[1];          // what the screen knows
   row.error.model = e.all - e.part[1];           // what it cannot know
   row.error.standard_error = e.standard_error;
-  row.build = to_json(summarise(build));
-  row.shade = to_json(summarise(shade));
+  row.build = cell_of(summarise(build));
+  row.shade = cell_of(summarise(shade));
   session.frontier(row);
   return {};
 }

@@ -3,19 +3,23 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "bench/report/json.h"
+#include "bench/report/kept.h"
 #include "bench/report/recorded.h"
 #include "host/module.h"
 
 namespace luxel::report {
 namespace {
 
-constexpr double quick_pairs_ms = 300;  // what pairs of a quick report may take, where three take no longer
+constexpr double quick_pairs_ms = 300, pairs_ms = 5000;  // what pairs may take, where three (whole reports: nine) take no longer
+constexpr double long_s = 2;                             // rows that take so long are taken again once at most
 
 // Labels begin with their kernel's name.
 std::string kernel_of(const std::string& label) { return label.substr(0, label.find(' ')); }
@@ -34,7 +38,8 @@ std::uint64_t hash_values(const std::vector<double>& values) {
 }
 
 Session::Session(std::shared_ptr<Context> context, Settings settings, int rows, double best_guard)
-    : settings_(std::move(settings)), rows_(rows), guard_(best_guard), kept_(read_kept(settings_.out + "/rows.jsonl")) {
+    : settings_(std::move(settings)), rows_(rows), guard_(best_guard),
+      kept_(std::make_shared<const KeptJobs>(read_kept(settings_.out + "/rows.jsonl"))) {
   context_ = noting(std::move(context));
   load_oracles();
 }
@@ -72,17 +77,17 @@ void Session::send(Json message) {
   }
 }
 
-void Session::row(const std::string& section, Json row) { send({{"section", section}, {"row", std::move(row)}}); }
+void Session::row(const std::string& section, const Cell& row) { send({{"section", section}, {"row", row.json()}}); }
 
-void Session::note(const std::string& list, Json entry) { send({{"note", list}, {"entry", std::move(entry)}}); }
+void Session::note(const std::string& list, const Cell& entry) { send({{"note", list}, {"entry", entry.json()}}); }
 
 void Session::progress(std::size_t done, std::size_t of, const std::string& label) {
   send({{"done", done}, {"of", of}, {"label", label}, {"guard", guard_.best()}});
 }
 
 bool Session::keep(const std::string& key, const std::string& label) {
-  const auto found = kept_.find(key);
-  if (found == kept_.end() || found->second.finished.value("label", "") != label) return false;
+  const auto found = kept_->find(key);
+  if (found == kept_->end() || found->second.finished.value("label", "") != label) return false;
   const Json& modules = found->second.finished["modules"];
   if (!unchanged(modules)) return false;
   for (const auto& [name, hash] : modules.items()) compiled_[kernel_][name] = hash.get<std::string>();
@@ -138,12 +143,14 @@ template <class Take>
 auto Session::guarded(const Take& take, const std::string& label) -> decltype(take()) {
   ++timed_;
   // Where the machine is busy all the time, taking rows again does not help: it is bounded, and more so in quick reports.
-  const int most = settings_.quick ? 1 : 3;
+  int most = settings_.quick ? 1 : 3;
   const auto may_retake = [&] { return retaken_ < (settings_.quick ? std::max(8, timed_ / 10) : std::max(20, timed_ / 4)); };
   double lowest = 0;
   for (int attempt = 0;; ++attempt) {
     const double before = guard_.measure();
+    const auto begin = std::chrono::steady_clock::now();
     auto taken = take();
+    if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > long_s) most = 1;
     lowest = std::min(before, guard_.measure());
     if (!taken.ok() || guard_.quiet(lowest)) return taken;
     if (attempt == most || !may_retake()) {
@@ -162,7 +169,7 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   if (Status status = run.go(1, &second); !status) return status;
   note("first_use", {{"label", label}, {"compile_ms", run.compile_ms()}, {"first_run_ms", first.total}});
   const double one = std::max(1e-3, std::min(first.total, second.total));
-  const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 400;
+  const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 200;
   const int repeat = std::clamp(static_cast<int>(std::ceil(sample_ms / one)), 1, 1000);
   // Quartiles need five; where a run takes long on the C++ execution or a report is quick, three must do.
   const int least = (is_cpu() || settings_.quick) && one > 50 ? 3 : 5;
@@ -193,7 +200,7 @@ Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const 
     if (!ms) return ms.status();
     one = warm == &a ? ms.value() : one + ms.value();
   }
-  const int n = settings_.quick ? std::clamp(static_cast<int>(quick_pairs_ms / one), 3, 9) : 25;
+  const int n = settings_.quick ? std::clamp(static_cast<int>(quick_pairs_ms / one), 3, 9) : std::clamp(static_cast<int>(pairs_ms / one), 9, 25);
   return guarded(
       [&]() -> Result<Pair> {
         Pair pair;

@@ -12,12 +12,12 @@
 
 #include "bench/report/frontier_row.h"
 #include "bench/report/guard.h"
-#include "bench/report/json.h"
-#include "bench/report/kept.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
 
 namespace luxel::report {
+
+struct KeptJob;
 
 /// One thing that is measured.
 struct Job {
@@ -51,9 +51,9 @@ class Session {
   bool is_cpu() const { return context_->info().api == Api::cpu; }
 
   /// A row of a section of the report.
-  void row(const std::string& section, Json row);
+  void row(const std::string& section, const Cell& row);
   /// A line of `devices[].limits`, `first_use` or `problems` of this device.
-  void note(const std::string& list, Json entry);
+  void note(const std::string& list, const Cell& entry);
   void progress(std::size_t done, std::size_t of, const std::string& label);
 
   /// Runs jobs in order. A job that fails becomes a problem of the device, and unless the code is `unsupported` (a
@@ -94,7 +94,7 @@ class Session {
 
  private:
   std::shared_ptr<Context> noting(std::shared_ptr<Context> context);
-  void send(Json message);
+  void send(nlohmann::ordered_json message);
   void load_oracles();
   bool keep(const std::string& key, const std::string& label);
   void add_bits(const std::string& kernel, bool equal, const std::string& label);
@@ -112,7 +112,7 @@ class Session {
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, std::vector<Oracle>> oracles_;
   std::set<std::string> seen_;
-  KeptJobs kept_;
+  std::shared_ptr<const std::map<std::string, KeptJob>> kept_;  // of an earlier run, by key
   std::string job_, kernel_;  // the job that runs: its key, and its label's kernel; empty: none
   // Hash by module, of all that jobs of a kernel compiled: scenes and oracles that one of them made serve the next.
   std::map<std::string, std::map<std::string, std::string>> compiled_;

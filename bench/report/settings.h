@@ -7,6 +7,9 @@ namespace luxel::report {
 
 struct Settings {
   bool quick = false;
+  bool oracle = false;     // the C++ execution, beside devices
+  bool slow_cases = true;  // of stability
+  int most_cases = 0;      // of each list of them, those that go furthest; 0: all
   bool once = false;       // errors are what is wanted: times are those of a single run
   // What `luxel tune` wants of a kernel's grid, where that lets it be chosen; 0: the grid's own.
   int width = 0, height = 0;  // of images

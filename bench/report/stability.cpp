@@ -6,15 +6,14 @@
 namespace luxel::report {
 namespace {
 
-// The last of each kind: the furthest of a list that goes outwards. Of more than a dozen kinds, some from all over the list.
-std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all, bool growths) {
+// The last of each kind: the furthest of a list that goes outwards. Of more than `most` kinds, some from all over the list.
+std::vector<cases::Case> last_of_kinds(const std::vector<cases::Case>& all, std::size_t most, bool growths) {
   const auto kind = [](const cases::Case& c) { return c.name.substr(0, c.name.find_first_of(",0123456789")); };
   std::map<std::string, const cases::Case*> last;
   for (const cases::Case& c : all) last[kind(c)] = &c;
   std::vector<cases::Case> kept;
   for (const cases::Case& c : all)
     if (last[kind(c)] == &c) kept.push_back(c);
-  const std::size_t most = growths ? 6 : 12;
   std::vector<cases::Case> some = kept;
   if (kept.size() > most) {
     some.clear();
@@ -34,8 +33,8 @@ std::vector<Job> stability_jobs(Session& session, const std::vector<cases::Case>
   const Settings& settings = session.settings();
   std::vector<cases::Case> all;
   for (const cases::Case& c : cases)
-    if (cases::applies(c, session.context().info()) && !(c.slow && settings.quick)) all.push_back(c);
-  if (settings.quick && settings.only.empty() && !session.is_cpu()) all = last_of_kinds(all, settings.stability);
+    if (cases::applies(c, session.context().info()) && (settings.slow_cases || !c.slow)) all.push_back(c);
+  if (settings.most_cases > 0 && settings.only.empty()) all = last_of_kinds(all, static_cast<std::size_t>(settings.most_cases), settings.stability);
   std::vector<Job> jobs;
   for (const cases::Case& c : all) {
     jobs.push_back({c.kernel + " case " + c.name, [&session, c]() -> Status {

@@ -17,7 +17,7 @@ Sample summarise(std::vector<double> values) {
   return {at(0.5), at(0.25), at(0.75), static_cast<int>(values.size())};
 }
 
-Json to_json(const Sample& sample) {
+Cell cell_of(const Sample& sample) {
   return {{"median", sample.median}, {"q1", sample.q1}, {"q3", sample.q3}, {"n", sample.n}};
 }
 

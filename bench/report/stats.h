@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "bench/report/json.h"
+#include "bench/report/cell.h"
 
 namespace luxel::report {
 
@@ -14,7 +14,7 @@ struct Sample {
 /// Quartiles by linear interpolation between order statistics. An empty list gives zeros.
 Sample summarise(std::vector<double> values);
 
-Json to_json(const Sample& sample);
+Cell cell_of(const Sample& sample);
 
 /// a[i] / b[i].
 std::vector<double> ratios(const std::vector<double>& a, const std::vector<double>& b);

@@ -99,6 +99,24 @@ void print_frontier(const Json& report) {
   }
 }
 
+void print_defaults(const Json& report) {
+  struct Count {
+    int all = 0, kept = 0;
+    std::string why;
+  };
+  std::map<std::pair<std::string, std::string>, Count> counts;
+  for (const Json& row : report["defaults"]) {
+    Count& c = counts[{row["kernel"], row["setting"]["variant"] == "luxel denoise" ? "luxel denoise" : ""}];
+    ++c.all;
+    if (row["better"].is_null()) ++c.kept;
+    else c.why = row["why"];
+  }
+  if (!counts.empty()) fmt::print("\ndefaults that nothing beats in both error and time\n");
+  for (const auto& [name, c] : counts)
+    fmt::print("{:<32} {} of {} places{}\n", name.second.empty() ? name.first : name.first + ", " + name.second, c.kept, c.all,
+               c.why.empty() ? "" : "; elsewhere: " + c.why);
+}
+
 // Rows about one level of a pyramid: a line a format and device.
 void print_levels(const Json& report) {
   std::map<std::string, std::map<int, double>> lines;
@@ -162,6 +180,7 @@ void print_stability(const Json& report) {
 
 void print_tables(const Json& report, const std::string& out) {
   print_frontier(report);
+  print_defaults(report);
   print_levels(report);
   print_peers(report);
   print_limits(report);

@@ -24,9 +24,9 @@ constexpr Format format = Format::f16x4;
 // Times of everything anew and of the update alone.
 void row(Session& session, FrontierRow r, const Session::Pair& times) {
   r.options = {{"format", name(format)}};
-  r.group = r.variant + r.knobs.dump();
-  r.build = to_json(summarise(times.a));
-  r.update = to_json(summarise(times.b));
+  r.group = r.variant + r.knobs.text();
+  r.build = cell_of(summarise(times.a));
+  r.update = cell_of(summarise(times.b));
   session.frontier(r);
 }
 

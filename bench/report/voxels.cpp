@@ -194,7 +194,7 @@ Status measure(Session& session, const Setting& s) {
                      {"touched_only", s.touched_only}},
                     {{"triangles", s.scene->mesh.triangles()}},
                     fmt::format("{} {}", name(s.mode), s.attributes), error};
-    row.build = to_json(ms.value());
+    row.build = cell_of(ms.value());
     row.costs_of(run);
     session.frontier(row);
   }
@@ -211,16 +211,16 @@ Status beside_published(Session& session, const Setting& s, double published_ms)
                         {"version", "published"},
                         {"kernel", "voxelize"},
                         {"size", size_text(*s.scene)},
-                        {"time_ms", to_json(summarise({published_ms}))},
+                        {"time_ms", cell_of(summarise({published_ms}))},
                         {"error", nullptr},
                         {"ratio", published_ms / ms.value().median},
                         {"q1", published_ms / ms.value().q3},
                         {"q3", published_ms / ms.value().q1},
                         {"device", session.device()},
                         {"options", {{"format", luxel::name(s.format)}, {"variant", name(s.mode)}}},
-                        {"own_ms", to_json(ms.value())},
+                        {"own_ms", cell_of(ms.value())},
                         {"own_error", nullptr},
-                        {"goal", s.scene->grid.width == 256 && session.context().info().api == Api::opencl ? Json(1.0) : Json()}});
+                        {"goal", s.scene->grid.width == 256 && session.context().info().api == Api::opencl ? Cell(1.0) : Cell()}});
   return {};
 }
 
@@ -285,7 +285,7 @@ std::vector<Job> voxel_jobs(Session& session) {
       if (!quick || mode == VoxelizeMode::conservative || format == Format::f32x4) add(s);
     }
     s.format = Format::f32x4;
-    if (quick && mode != VoxelizeMode::conservative) continue;
+    if (mode != VoxelizeMode::conservative) continue;
     for (const VoxelizeMerging merging : {VoxelizeMerging::moving_average, VoxelizeMerging::last_write}) {
       s.merging = merging;
       add(s);

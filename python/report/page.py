@@ -163,8 +163,38 @@ def kernel_section(report, kernel, pictures, figures, folder):
         best = [row for row in here if row["on_frontier"]]
         parts.append(details(f"{device}: {len(best)} settings on the frontier", frontier_table(report, best)))
         parts.append(details(f"{device}: all {len(here)} settings", frontier_table(report, here)))
-    parts += [stability(report, kernel), peers(report, kernel), left_out(report, kernel)]
+    parts += [defaults(report, kernel), stability(report, kernel), peers(report, kernel), left_out(report, kernel)]
     return "\n".join(parts)
+
+
+def defaults(report, kernel):
+    mine = [row for row in report.get("defaults", []) if row["kernel"] == kernel]
+    if not mine:
+        return ""
+    beaten = [row for row in mine if row["better"]]
+    lines = "".join(f"<p class=note>Where it is not: {esc(why)}.</p>" for why in dict.fromkeys(row["why"] for row in beaten))
+    body = [
+        (
+            row,
+            [
+                row["device"],
+                f'{row["scene"]}, {row["size"]}',
+                row["metric"],
+                rows.setting(row["setting"]),
+                number(row["error"]),
+                number(row["ms"]),
+                rows.setting(row["better"]["setting"]),
+                number(row["better"]["error"]),
+                number(row["better"]["ms"]),
+            ],
+        )
+        for row in beaten
+    ]
+    head = ["device", "scene", "metric", "default", "#error", "#ms", "the fastest that beats it", "#its error", "#its ms"]
+    return (
+        f"<h3>The default</h3><p class=note>On the frontier in {len(mine) - len(beaten)} of the {len(mine)} places where it was "
+        f"measured.</p>{lines}" + (details(f"{len(beaten)} where something beats it", table(head, body)) if beaten else "")
+    )
 
 
 def methods(report, figures):
