@@ -98,6 +98,7 @@ Result<Plan> plan_grid(const BilateralParams& p, const Profile& profile) {
                 {"low", p.low},
                 {"per_step", per_step}},
                {}, {{"src", m.src}, {"grid", a}});
+  planner.rounds(g.bins + g.cell * (g.cell + 1.0));
   planner.cost(10 * pixels, pixels * bytes_per_pixel(p.format) + 16.0 * cells);
   for (int axis = 0; axis < 3; ++axis) {
     planner.pass("bilateral_grid_blur", "f32x4", "bilateral grid blur", over(g.columns, g.rows, g.bins), {16, 4, 1},

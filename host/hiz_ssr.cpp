@@ -159,7 +159,9 @@ namespace {
 
 constexpr int tile = 8;               // traced pixels along a side (kernels/hiz_ssr)
 constexpr int spreads = 65;           // entries of the table over roughness 0..1
+constexpr int span = 256;             // tiles that an invocation counts (kernels/hiz_ssr)
 constexpr std::uint32_t most_invocations = 1u << 20;  // of a launch that strides over a list
+constexpr std::uint32_t most_of_few_rounds = 1u << 23;  // the same where an invocation's loops may not run long (Pass::rounds)
 
 class Reflecting {
  public:
@@ -209,7 +211,8 @@ class Reflecting {
 
   // Invocations for `count` pieces of work, whole workgroups, and how far apart those of one invocation are.
   Three strided(std::size_t count) const {
-    const std::uint32_t most = std::max(most_invocations / line_[0], 1u) * line_[0];
+    const std::uint32_t allowed = profile_.name == "lavapipe" ? most_of_few_rounds : most_invocations;
+    const std::uint32_t most = std::max(allowed / line_[0], 1u) * line_[0];
     const std::uint32_t whole = static_cast<std::uint32_t>(std::min<std::size_t>((count + line_[0] - 1) / line_[0] * line_[0], most));
     return {whole, 1, 1};
   }
@@ -232,14 +235,19 @@ class Reflecting {
                    {"depth_offset", offset_},
                    {"cutoff", p_.cutoff}},
                   {{"DEPTH", depth()}}, slots);
-    planner_.pass("hiz_ssr_list", "u32", "hiz_ssr list of tiles", {parts(static_cast<int>(tiles_), 64), 1, 1}, {8, 1, 1},
+    const std::uint32_t spans = parts(static_cast<int>(tiles_), span);
+    const Slot sums = planner_.scratch(Format::u32, spans);
+    planner_.pass("hiz_ssr_spans", "u32", "hiz_ssr count tiles", {spans, 1, 1}, {8, 1, 1}, {{"tiles", static_cast<double>(tiles_)}}, {},
+                  {{"flags", flags}, {"sums", sums}});
+    planner_.pass("hiz_ssr_list", "u32", "hiz_ssr list of tiles", {spans, 1, 1}, {8, 1, 1},
                   {{"tiles", static_cast<double>(tiles_)},
                    {"rays", rays_a_tile()},
                    {"pixels", pixels_a_tile()},
                    {"workgroup", line_[0]},
                    {"most_rays", strided(tiles_ * rays_a_tile())[0] / line_[0]},
                    {"most_pixels", strided(tiles_ * pixels_a_tile())[0] / line_[0]}},
-                  {}, {{"flags", flags}, {"tile_list", list_}, {"counts", counts_}});
+                  {}, {{"flags", flags}, {"sums", sums}, {"tile_list", list_}, {"counts", counts_}});
+    planner_.rounds(spans + span);
     planner_.cost(0, static_cast<double>(pixels_) * 20);
   }
 
@@ -282,6 +290,8 @@ class Reflecting {
                    {"fade_back", p_.fade_back}},
                   {{"METHOD", stochastic() ? 0 : static_cast<int>(p_.variant)}, {"DEPTH", depth()}}, slots);
     if (p_.rays == 0) planner_.counts(counts_);
+    const double looks = p_.max_steps > 0 ? std::min(p_.max_steps, looks_needed(p_)) : looks_needed(p_);
+    planner_.rounds(looks * (p_.rays > 0 ? 1.0 : std::ceil(static_cast<double>(tiles_ * rays_a_tile()) / invocations[0])));
     planner_.cost(0, static_cast<double>(hiz_ssr_depth_texels(p_) * 4 + hiz_ssr_rays(p_) * 48));
   }
 

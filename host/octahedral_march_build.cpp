@@ -1,3 +1,4 @@
+#include <cmath>
 #include <luxel/octahedral_map.h>
 #include <luxel/probe_build.h>
 
@@ -25,6 +26,7 @@ void minimum_pass(Planner& planner, const ProbeMaps& m, std::size_t probes, Slot
                line.invocations, line.workgroup,
                {{"size", m.size}, {"ratio", m.ratio}, {"cells", static_cast<double>(cells)}, {"stride", line.invocations[0]}},
                {}, {{"distances", distances}, {"minimum", to}});
+  planner.rounds(2 * std::ceil(static_cast<double>(cells) / 2 / line.invocations[0]) * m.ratio * (m.ratio + 1.0));
   planner.cost(0, static_cast<double>((probe_distance_elements(m, probes) + probe_minimum_elements(m, probes)) * 4));
 }
 

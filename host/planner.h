@@ -35,6 +35,10 @@ class Planner {
   /// The pass added last finds its number of workgroups in three u32 of `slot`, from element `first`, which an earlier
   /// pass wrote (kernels/math/launch.h); its invocations are then the most there may be.
   void counts(Slot slot, std::size_t first = 0);
+  /// The pass added last runs so many rounds of loops an invocation at most: Pass::rounds.
+  void rounds(double most) {
+    if (!plan_.passes.empty()) plan_.passes.back().rounds = most;
+  }
   void cost(double flops, double bytes) { plan_.flops += flops; plan_.bytes += bytes; }
 
   /// The finished plan, or the first defect met on the way.

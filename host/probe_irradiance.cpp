@@ -133,6 +133,7 @@ Result<Plan> plan(const ProbeIrradianceParams& p, const Profile&) {
   const Planner::Values reduce{{"probes", count}, {"size", p.maps.size}, {"reduced", samples}, {"unit_length", unit},
                                {"farthest", p.max_distance}};
   constexpr std::array<std::uint32_t, 3> line{64, 1, 1};
+  const double factor = p.maps.size / samples;
 
   if (p.irradiance_size > 0) {
     constexpr const char* stored[] = {"f32x4", "f16x4", "r11g11b10"};
@@ -140,6 +141,7 @@ Result<Plan> plan(const ProbeIrradianceParams& p, const Profile&) {
     const Slot means = planner.scratch(Format::f32x4, reduced);
     planner.pass("probe_reduce", "radiance_" + listed + stored[static_cast<int>(p.maps.radiance)], "probe_irradiance reduce radiance",
                  over(samples), line, reduce, {}, with_list({{"src", radiance}, {"means", means}}));
+    planner.rounds(factor * (factor + 1));
     const std::size_t out = probe_map_texels(probes, p.irradiance_size);
     Slots slots = with_list({{"means", means}, {"texels", table}, {"irradiance", resource("irradiance", p.irradiance_format, out, true)}});
     if (p.previous) slots.emplace_back("previous", resource("previous_irradiance", p.irradiance_format, out, false));
@@ -155,6 +157,7 @@ Result<Plan> plan(const ProbeIrradianceParams& p, const Profile&) {
     const Slot distances = planner.scratch(Format::f32x2, reduced);
     planner.pass("probe_reduce", "distance_" + listed + (half ? "f16" : "f32"), "probe_irradiance reduce distance", over(samples), line,
                  reduce, {}, with_list({{"src", distance}, {"moments", distances}}));
+    planner.rounds(2 * factor * (factor + 1));
     const std::size_t out = probe_map_texels(probes, p.moments_size);
     Slots slots = with_list({{"distances", distances}, {"texels", table}, {"moments", resource("moments", p.moments_format, out, true)}});
     if (p.previous) slots.emplace_back("previous", resource("previous_moments", p.moments_format, out, false));

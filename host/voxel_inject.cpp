@@ -229,6 +229,7 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                 {"w_z", p.shadow.to_depth[2]},
                 {"w_at", p.shadow.to_depth[3]}},
                {{"COUNT", p.count}, {"TORUS", p.toroidal}, {"SHADOW", p.shadow.width > 0}}, slots);
+  planner.rounds(static_cast<double>(p.lights) * (1.0 + p.width + p.height + p.depth));
   planner.cost(0, static_cast<double>(p.bricks) * static_cast<double>(brick_voxels * pixel * (3 + p.emission)));
   return std::move(planner).finish();
 }

@@ -52,6 +52,15 @@ void check_pass(const VkPhysicalDeviceLimits& limits, const Pass& pass, Checker&
   check.at_most("maxPushConstantsSize", limits.maxPushConstantsSize, 4 * pass.module->parameters.size(), by);
 }
 
+// LP_MAX_TGSI_LOOP_ITERATIONS of llvmpipe: after so many rounds every loop of an invocation ends.
+constexpr double llvmpipe_rounds = 65535;
+
+void check_rounds(const Device::State& device, const Pass& pass, Checker& check) {
+  if (device.physical.profile == "lavapipe" && pass.rounds > llvmpipe_rounds)
+    check.fail(device.physical.name + " ends all loops of an invocation after 65535 rounds; pass " + pass.label + " may need " +
+               std::to_string(static_cast<std::uint64_t>(pass.rounds)));
+}
+
 void check_descriptors(const Device::State& device, const Pass& pass, Checker& check) {
   const VkPhysicalDeviceLimits& limits = device.physical.properties.limits;
   const std::string by = "pass " + pass.label;
@@ -148,6 +157,7 @@ Status check_limits(const Device::State& device, const Plan& plan) {
   for (const Resource& resource : plan.resources) check_resource(device, resource, check);
   for (const Pass& pass : plan.passes) {
     check_pass(device.physical.properties.limits, pass, check);
+    check_rounds(device, pass, check);
     check_descriptors(device, pass, check);
     for (std::size_t i = 0; i < pass.slots.size(); ++i) {
       check_slot(device, plan, pass.slots[i], pass.module->bindings[i], check);

@@ -2,11 +2,12 @@
 // counts: the workgroups of the two passes that walk it.
 
 KERNEL(hiz_ssr_list) {
-    const int first = invocation_x() * SPAN;
+    const int span = invocation_x();
+    const int first = span * SPAN;
     if (first >= params.tiles) return;
     const int last = min(first + SPAN, params.tiles);
     uint number = 0u;
-    for (int t = 0; t < first; ++t) number += load(flags, t);
+    for (int s = 0; s < span; ++s) number += load(sums, s);
     for (int t = first; t < last; ++t)
         if (load(flags, t) != 0u) {
             store(tile_list, 1 + int(number), uint(t));

@@ -2,7 +2,7 @@
    math: launch
    module u32:
 */
-#define SPAN 64  // tiles that an invocation lists
+#define SPAN 256  // tiles that an invocation lists; as hiz_ssr_spans has it
 #define PARAMETERS(_) \
     _(int, tiles) \
     _(uint, rays)        /* invocations a tile, of the pass that traces */ \
@@ -13,4 +13,5 @@
 #define BINDINGS(_) \
     _(READ, 0, uint, flags) \
     _(WRITE, 1, uint, tile_list) \
-    _(WRITE, 2, uint, counts)
+    _(WRITE, 2, uint, counts) \
+    _(READ, 3, uint, sums)
