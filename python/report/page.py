@@ -50,14 +50,58 @@ METRICS = {
     "max |x - t| / max |input|, all levels": "The largest difference of any channel of any texel of any level (and "
     "direction) from the truth, over the largest value of level 0. The truth is the same reduction in double, from "
     "level 0 on, never from a rounded level.",
-    "half L1 of the impulse response's error": "The share of the filter's weight that lies in the wrong place: half "
-    "the "
+    "half L1 of the impulse response's error": "The share of the filter's weight that lies in the wrong place: half the "
     "sum of |response - true response| to a single pixel of 1.",
+    "max |x - direct| / max |input|": "The largest difference of any channel of any pixel from the variant direct at the same "
+    "radius in double, over the largest value of the input: what a cheaper variant leaves of the formula.",
+    "1 / PSNR, as rms / max |input|": "The root mean square of the differences from the variant direct at the same radius in "
+    "double, over the largest value of the input: its reciprocal is the peak signal to noise ratio.",
+    "relmse_pixel, all pixels": "The mean over pixels and channels of (x - t)² / (t² + (0.01 mean t)²), t being the same picture "
+    "rendered to convergence: noise that is left, and what the filter blurred.",
+    "relmse_pixel, off edges": "The same without pixels beside an edge of depth or normals, which filters blur first.",
+    "|mean of x - t| in steps of the format": "How far the mean of a level drifted from the truth's, in steps of the storage "
+    "format: rounding that always goes one way would add up from level to level.",
+    "max |x - t| of colour 0..1": "The largest difference of any channel of any voxel from the truth: the mean over the "
+    "triangles in the voxel weighted by their exact areas within it, in double.",
+    "voxels missing or extra": "How many voxels are set that the exact test in integers (separating axes) leaves empty, or the "
+    "other way round. 0 is promised.",
+    "voxels that differ from the window anew": "How many voxels of the window that scrolled differ in any bit from a window that "
+    "was voxelized anew in its place. 0 is promised.",
+    "voxels whose light differs from everything anew": "How many voxels' light differs in any bit from lighting everything anew. "
+    "0 is promised.",
+    "share of occupied voxels that differ from everything anew": "The share of occupied voxels that differ in any bit from "
+    "voxelizing and lighting everything anew.",
+    "root mean square of x - rays through the voxels": "Irradiance by cones against the cosine-weighted mean over many rays that "
+    "march through the finest voxels in double: root mean square over the receivers, over the truth's mean. The error of cones "
+    "and pyramid, not of voxels.",
+    "irradiance after one bounce": "Against path tracing at the same receivers, which gives two independent halves t1 and t2: "
+    "the mean of (x - t1)(x - t2) is the mean squared error without the noise of the truth; over the square of the truth's "
+    "mean. 1 is a picture as wrong as its mean is large.",
+    "reflected radiance": "Against path tracing of the same pixels in two independent halves t1 and t2: the mean of "
+    "(x - t1)(x - t2), the mean squared error without the noise of the truth, over the square of the truth's mean. Misses count "
+    "with what they fell back on.",
+    "share of rays that end elsewhere than the exhaustive walk's": "The share of rays whose hit is another pixel, or that hit "
+    "where the walk over every pixel on the way, in double, finds none, or the other way round.",
+    "share of rays that end elsewhere than Embree's": "The share of rays off surfaces with another outcome than the exact ray "
+    "through the triangles, or a hit farther from its than two texel footprints and 1 % of the distance.",
+    "irradiance for random normals": "Irradiance looked up for random normals against quadrature over the texels that the probe "
+    "saw, in double: root mean square, over the mean.",
+    "energy in the dark room": "Two rooms with a wall between them, a lamp in one: the energy that reaches the surfaces of the "
+    "other one, over the lamp's. The truth is 0.",
+    "rms of E r^2 against the linear operator": "Irradiance times squared distance around one light, against the same scheme "
+    "without its treatment of negative lobes, in double: root mean square. The truth is at most 1.",
+    "rms of E r^2 against the inverse square": "Irradiance times squared distance around one light in free space, where it is "
+    "the same everywhere, against that: root mean square. What propagation in steps of a cell makes of light, diffusion above all.",
 }
 
 
 def esc(value):
     return html.escape(str(value))
+
+
+def meaning(metric):
+    """What a metric says: METRICS by its whole name, or by how it begins."""
+    return METRICS.get(metric) or next((text for name, text in METRICS.items() if metric.startswith(name)), "")
 
 
 def table(head, body, bad=lambda row: False):
@@ -127,7 +171,7 @@ def kernel_section(report, kernel, pictures, figures, folder):
     points = [row for row in report["frontier"] if row["kernel"] == kernel]
     parts.append("<h3>Error against run time</h3>")
     for metric in dict.fromkeys(row["error"]["metric"] for row in points if "level" not in row["knobs"]):
-        parts.append(f'<p class="note"><b>{esc(metric)}.</b> {esc(METRICS.get(metric, ""))}</p>')
+        parts.append(f'<p class="note"><b>{esc(metric)}.</b> {esc(meaning(metric))}</p>')
     parts.append(
         '<p class="note">Error: the sum of its parts, no less than the whole. Rounding: float against double. Storage: '
         'rounding by the format of the result. Device: against C++ in float, 0 where the bits are equal. Method: '
