@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -294,15 +295,16 @@ TEST(HizSsr, ThePyramidSavesLooks) {
 
 TEST(HizSsr, WritesNothingPastAnyEndAndEveryRay) {
   for (const std::string& device : test_devices())
-    for (const int rays : {0, 77}) {
-      HizSsrParams p = ssr_params(37, 23);
+    // The last has more tiles than one invocation of the list counts.
+    for (const auto& [rays, width, height] : {std::array{0, 37, 23}, {77, 37, 23}, {0, 520, 40}}) {
+      HizSsrParams p = ssr_params(width, height);
       p.rays = rays;
       p.count = true;
-      const Values stored = height_field(37, 23, 11);
+      const Values stored = height_field(width, height, 11);
       Context& context = test_context(device);
       const auto all = with_pyramid(context, p, stored);
       ASSERT_TRUE(all) << all.status().message();
-      const Values source = rays > 0 ? screen_rays(p, rays, 12) : mirrors(37 * 23, {0, 1, 0.2});
+      const Values source = rays > 0 ? screen_rays(p, rays, 12) : mirrors(static_cast<std::size_t>(width * height), {0, 1, 0.2});
       const auto floats = [](const Values& v) { return std::vector<float>(v.begin(), v.end()); };
       const std::vector<Bytes> out =
           run_bytes(context, plan(p, context.profile()).value(),
