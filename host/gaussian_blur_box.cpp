@@ -106,6 +106,7 @@ void plan_box(const GaussianBlurParams& p, const Profile& profile, Planner& plan
                     {"KEEP_ALPHA", p.keep_alpha && !ones},
                     {"LANES", lanes}},
                    {{"src", last.slot}, {"dst", next.slot}, {"weights", weights}, {"coverage", coverage}});
+      planner.rounds(2.0 * window + std::min(window, length) + 5.0 * chunks);
       planner.cost(7.0 * lines * length * n,
                    1.0 * lines * length * (bytes_per_pixel(last.format) + bytes_per_pixel(next.format)));
       last = next;

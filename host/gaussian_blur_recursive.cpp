@@ -290,6 +290,7 @@ void plan_recursive(const GaussianBlurParams& p, const Profile& profile, Planner
                     {"dst", backward ? out.slot : kept.slot},
                     {"coefficients", coefficients},
                     {"coverage", coverage}});
+      planner.rounds(1.0 + l.warm + (backward ? l.count : l.stored));
       // A real pole takes 3 operations, a pair 11.
       const int operations = p.order == 3 ? 14 : p.order == 4 ? 22 : 25;
       planner.cost(static_cast<double>(lines) * (l.stored + l.warm) * n * operations,

@@ -2,6 +2,7 @@
 #include <luxel/cone_trace.h>
 
 #include <algorithm>
+#include <bit>
 #include <cfloat>
 #include <cmath>
 
@@ -291,7 +292,7 @@ class Reflecting {
                   {{"METHOD", stochastic() ? 0 : static_cast<int>(p_.variant)}, {"DEPTH", depth()}}, slots);
     if (p_.rays == 0) planner_.counts(counts_);
     const double looks = p_.max_steps > 0 ? std::min(p_.max_steps, looks_needed(p_)) : looks_needed(p_);
-    planner_.rounds(looks * (p_.rays > 0 ? 1.0 : std::ceil(static_cast<double>(tiles_ * rays_a_tile()) / invocations[0])));
+    planner_.rounds((looks + 32.0) * (p_.rays > 0 ? 1.0 : std::ceil(static_cast<double>(tiles_ * rays_a_tile()) / invocations[0])));
     planner_.cost(0, static_cast<double>(hiz_ssr_depth_texels(p_) * 4 + hiz_ssr_rays(p_) * 48));
   }
 
@@ -375,6 +376,7 @@ Result<Plan> plan(const SplitSumParams& p, const Profile& profile) {
   const std::uint32_t n = static_cast<std::uint32_t>(p.size);
   planner.pass("hiz_ssr_split_sum", "f32x2", "hiz_ssr split sum", {n, n, 1}, profile.pixels.workgroup,
                {{"size", p.size}, {"samples", p.samples}}, {}, {{"split_sum", to}});
+  planner.rounds(p.samples * (3.0 + std::bit_width(static_cast<unsigned>(p.samples))));  // each looks at its number digit by digit
   planner.cost(static_cast<double>(p.size) * p.size * p.samples * 110, static_cast<double>(table.bytes));
   return std::move(planner).finish();
 }

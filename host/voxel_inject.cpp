@@ -229,7 +229,12 @@ Result<Plan> plan(const VoxelInjectParams& p, const Profile& profile) {
                 {"w_z", p.shadow.to_depth[2]},
                 {"w_at", p.shadow.to_depth[3]}},
                {{"COUNT", p.count}, {"TORUS", p.toroidal}, {"SHADOW", p.shadow.width > 0}}, slots);
-  planner.rounds(static_cast<double>(p.lights) * (1.0 + p.width + p.height + p.depth));
+  // Rays that pass a voxel, and all texels of the shadow map that see one.
+  const auto texels_of = [](const std::array<double, 4>& to, int most) {
+    return std::min<double>(most, std::fabs(to[0]) + std::fabs(to[1]) + std::fabs(to[2]) + 2);
+  };
+  planner.rounds(p.lights * (2.0 + p.width + p.height + p.depth) +
+                 texels_of(p.shadow.to_y, p.shadow.height) * (texels_of(p.shadow.to_x, p.shadow.width) + 1));
   planner.cost(0, static_cast<double>(p.bricks) * static_cast<double>(brick_voxels * pixel * (3 + p.emission)));
   return std::move(planner).finish();
 }

@@ -323,6 +323,7 @@ class Voxelization {
     planner_.pass("voxelize_slots", "u32", "voxelize number bricks", spans, line,
                   {{"bricks", bricks}, {"capacity", room_.bricks}}, {},
                   {{"sums", spans_}, {"slots", slots_}, {"brick_list", list_}, {"counters", counters_}});
+    planner_.rounds(spans[0] + span);
     planner_.cost(0, 12.0 * bricks);
   }
 

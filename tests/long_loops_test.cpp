@@ -9,6 +9,7 @@
 
 #include <luxel/voxel_inject.h>
 
+#include "bench/scene/images.h"
 #include "tests/cases/bilateral_support.h"
 #include "tests/cases/compare.h"
 #include "tests/cases/cone_trace_support.h"
@@ -22,6 +23,16 @@ namespace luxel {
 namespace {
 
 using cases::Values;
+
+// A member of what a run gave.
+template <class R>
+Result<Values> part(const Result<R>& given, Values R::*member) {
+  if (!given) return given.status();
+  return given.value().*member;
+}
+
+// Numbers in 0..1 without order.
+double noise(int i) { return (scene::hash(static_cast<std::uint32_t>(i)) >> 8) * 0x1p-24; }
 
 class LongLoopsFull : public testing::TestWithParam<std::string> {
  protected:
@@ -53,18 +64,14 @@ TEST_P(LongLoopsFull, TilesOfALargeFrame) {
   // One pixel of each third tile.
   for (std::size_t i = 0; i < pixels; ++i)
     normals.insert(normals.end(), {0, 0.6, 0.8, i % 2400 % 24 == 5 && i / 2400 % 8 == 3 ? 0.0 : 2.0});
-  same_bits([&](Context& context) -> Result<Values> {
-    const auto r = cases::follow(context, p, depth, normals);
-    if (!r) return r.status();
-    return r.value().paths;
-  }, false);
+  same_bits([&](Context& context) { return part(cases::follow(context, p, depth, normals), &cases::SsrResult::paths); }, false);
 }
 
 // Each of the rest twice: the most that no driver refuses or nearly, and many more.
 
 TEST_P(LongLoopsFull, Lights) {
   constexpr int side = 24;
-  for (const int lights : {897, 4000}) {
+  for (const int lights : {885, 4000}) {
     VoxelInjectParams p;
     p.width = p.height = p.depth = side;
     p.bricks = 27;
@@ -102,11 +109,7 @@ TEST_P(LongLoopsFull, CellsOfAGrid) {
     p.sigma_space = cell;
     p.high = 2;
     const auto images = cases::bilateral_images(p, 1);
-    same_bits([&](Context& context) -> Result<Values> {
-      const auto r = cases::filter(context, p, images);
-      if (!r) return r.status();
-      return r.value().dst;
-    }, cell > 250);
+    same_bits([&](Context& context) { return part(cases::filter(context, p, images), &cases::Filtered::dst); }, cell > 250);
   }
 }
 
@@ -121,17 +124,12 @@ TEST_P(LongLoopsFull, MapsAveraged) {
     p.moments_format = Format::f32x2;
     cases::ProbeSeen seen;
     for (int i = 0; i < size * size; ++i) {
-      const double v = (static_cast<std::uint32_t>(i) * 2654435761u >> 8) * 0x1p-24;
+      const double v = noise(i);
       seen.radiance.insert(seen.radiance.end(), {v, v * v, 1 - v, 0});
       seen.distance.push_back(static_cast<float>(0.1 + v));
     }
-    same_bits([&](Context& context) -> Result<Values> {
-      const auto r = cases::filter(context, p, seen);
-      if (!r) return r.status();
-      Values all = r.value().irradiance;
-      all.insert(all.end(), r.value().moments.begin(), r.value().moments.end());
-      return all;
-    }, size > 512);
+    for (Values cases::ProbeFiltered::*const map : {&cases::ProbeFiltered::irradiance, &cases::ProbeFiltered::moments})
+      same_bits([&](Context& context) { return part(cases::filter(context, p, seen), map); }, size > 512);
   }
 }
 
@@ -145,11 +143,8 @@ TEST_P(LongLoopsFull, ConesInSmallSteps) {
     Values receivers;
     cases::add_receiver(receivers, {0.5, 0.02, 0.5}, {0, 1, 0});
     const Values volume = cases::uniform_volume(128, {1e-5, 2e-5, 3e-5, 1e-4});
-    same_bits([&](Context& context) -> Result<Values> {
-      const auto r = cases::trace(context, p, volume, receivers);
-      if (!r) return r.status();
-      return r.value().irradiance;
-    }, step < 0.25);
+    same_bits([&](Context& context) { return part(cases::trace(context, p, volume, receivers), &cases::ConeResult::irradiance); },
+              step < 0.25);
   }
 }
 
@@ -163,13 +158,24 @@ TEST_P(LongLoopsFull, UniformStepsOfARay) {
     Values depth(1024 * 8, HUGE_VAL), rays;
     for (std::size_t y = 0; y < 8; ++y) depth[y * 1024 + 900] = 4;
     for (int i = 0; i < 4; ++i) cases::add_ray(rays, {-1.9, -0.001 * i, -4.005}, {1, 0, 0});
-    same_bits([&](Context& context) -> Result<Values> {
-      const auto r = cases::follow(context, p, depth, rays);
-      if (!r) return r.status();
-      Values all = r.value().hits;
-      all.insert(all.end(), r.value().paths.begin(), r.value().paths.end());
-      return all;
-    }, steps > 8000);
+    same_bits([&](Context& context) { return part(cases::follow(context, p, depth, rays), &cases::SsrResult::paths); }, steps > 8000);
+  }
+}
+
+TEST_P(LongLoopsFull, SamplesOfTheSplitSum) {
+  for (const int samples : {3500, 65536})
+    same_bits([&](Context& context) { return cases::split_sum_table(context, 4, samples); }, samples > 3500);
+}
+
+// Windows of 34,641 pixels, and lines that are begun again for the period of their border.
+TEST_P(LongLoopsFull, LongestLines) {
+  for (const GaussianVariant v : {GaussianVariant::box, GaussianVariant::recursive}) {
+    GaussianBlurParams p = cases::blur_params(65535, 1, 10000, -1, Format::f32x1, Border::wrap, v);
+    if (v == GaussianVariant::box) p.passes = 1;
+    Values src;
+    for (int i = 0; i < p.width; ++i) src.push_back(noise(i));
+    SCOPED_TRACE(cases::name(v));
+    same_bits([&](Context& context) { return cases::blur(context, p, src); });
   }
 }
 
@@ -180,7 +186,7 @@ TEST_P(LongLoopsFull, LinesOfAnImage) {
       const int radius = v == GaussianVariant::separable ? 4095 : -1;
       const GaussianBlurParams p = cases::blur_params(width, height, 10000, radius, Format::f32x1, Border::clamp, v);
       Values src;
-      for (int i = 0; i < width * height; ++i) src.push_back((static_cast<std::uint32_t>(i) * 2654435761u >> 8) * 0x1p-24);
+      for (int i = 0; i < width * height; ++i) src.push_back(noise(i));
       SCOPED_TRACE(std::string(cases::name(v)) + " " + std::to_string(width));
       same_bits([&](Context& context) { return cases::blur(context, p, src); }, false);
     }

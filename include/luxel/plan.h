@@ -107,8 +107,9 @@ struct Pass {
   std::array<std::uint32_t, 3> workgroup{1, 1, 1};  ///< invocations
   std::array<std::uint32_t, 3> groups{1, 1, 1};     ///< workgroups; with `counts` the most there may be
   std::optional<Counts> counts;                     ///< where the number of workgroups is found as the plan runs
-  /// Rounds of loops that an invocation runs at most, all its loops together; 0: few. Some drivers end them without a word:
-  /// Mesa's llvmpipe after 65,535; there the small layer refuses what may need more (unsupported).
+  /// Rounds of loops that an invocation runs at most, all its loops together; 0: few, or (probe_trace) no bound that ordinary
+  /// calls keep. Some drivers end loops without a word: Mesa's llvmpipe after 65,535 rounds; there the small layer refuses what
+  /// may need more (unsupported).
   double rounds = 0;
 };
 
