@@ -148,7 +148,7 @@ Status interleaved_picture(Session& session, int width, int height) {
         {{"claim", fmt::format("a 5 x 5 pattern of 25 cones{}, blurred, is within 0.1 of all 25 at every pixel, blurred "
                                "alike (share of pixels; sum over channels)",
                                turned ? ", turned at random for each tile" : "")},
-         {"source", "seed 004, 4.4 (figures 70 to 72)"},
+         {"source", "Hong 2015, 4.4 (figures 70 to 72)"},
          {"source_value", nullptr},
          {"measured", d.value().within},
          {"q1", nullptr},
@@ -176,7 +176,7 @@ Status interleaved(Session& session, const std::shared_ptr<const ConeWorld>& box
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
   session.row("reproduction",
               {{"claim", "one of 25 cones a pixel in a 5 x 5 pattern is faster than 25 cones a pixel (time ratio)"},
-               {"source", "seed 004, 4.4 (figure 70; no number is printed)"},
+               {"source", "Hong 2015, 4.4 (figure 70; no number is printed)"},
                {"source_value", nullptr},
                {"measured", r.median},
                {"q1", r.q1},

@@ -235,7 +235,7 @@ std::vector<Job> mip_reproduction(Session& session, const MipScenes& scenes) {
                     if (!one) return one.status();
                     const double more = resource_bytes(six.value()) / resource_bytes(one.value());
                     return reproduce(session, "directional volumes take 1.5 times the memory of the isotropic pyramid",
-                                     "seed 004, 2.5.3.3.10 (after Crassin et al. 2011)", 1.5, {more, more, more, 1},
+                                     "Hong 2015, 2.5.3.3.10 (after Crassin et al. 2011)", 1.5, {more, more, more, 1},
                                      std::fabs(more - 1.5) < 0.05,
                                      "13/8: the finest level is shared, six volumes stand on it (1 + 6/7 against 1 + "
                                      "1/7); 1.5 more of what is above it "
@@ -266,7 +266,7 @@ std::vector<Job> mip_marches(Session& session, const MipScenes& scenes) {
          return reproduce(
              session,
              "two levels (full and 1/16) beat the full hierarchy for distance maps: time ratio of the marches above 1",
-             "seed 002, 4.2 (McGuire et al. 2017)", 1, r, r.median > 1,
+             "McGuire et al. 2017, 4.2", 1, r, r.median > 1,
              fmt::format(
                  "on a CPU core with a cache there is no stack to spill; steps a ray: full {:.1f}, two levels {:.1f}, "
                  "{} rays of which {} hit, the same in both",

@@ -143,7 +143,7 @@ Result<std::shared_ptr<Run>> ready(Session& session, const Result<Plan>& plan) {
 
 void reproduced(Session& session, const char* claim, const Sample& ratio, const std::string& reason) {
   session.row("reproduction", {{"claim", claim},
-                               {"source", "seed 004, 4.4 (figures 53 to 55: 8.08 ms of 256^3 Sponza's steps removed, GTX 660)"},
+                               {"source", "Hong 2015, 4.4 (figures 53 to 55: 8.08 ms of 256^3 Sponza's steps removed, GTX 660)"},
                                {"source_value", nullptr},
                                {"measured", ratio.median},
                                {"q1", ratio.q1},

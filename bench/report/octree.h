@@ -7,7 +7,7 @@
 
 namespace luxel::report {
 
-/// The headline of seed 004, 4.4: mips in place of an octree. Rows of `reproduction`.
+/// The headline of Hong 2015, 4.4: mips in place of an octree. Rows of `reproduction`.
 std::vector<Job> octree_reproduction(Session& session, std::vector<std::string>& missing);
 
 }  // namespace luxel::report

@@ -293,7 +293,7 @@ Status against_rays(Session& session, bool large) {
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
   const auto claim = [&](const char* what, const Sample& found, const std::string& reason) {
     session.row("reproduction", {{"claim", what},
-                                 {"source", "seed 002, section 6, figure 11 (13 ms against 0.2 ms)"},
+                                 {"source", "McGuire et al. 2017, section 6, figure 11 (13 ms against 0.2 ms)"},
                                  {"source_value", 65},
                                  {"measured", found.median},
                                  {"q1", found.q1},
@@ -373,7 +373,7 @@ Status hysteresis(Session& session, double keep, double source_value) {
   };
   const double left = deviation(blended) / deviation(alone), expected = std::sqrt((1 - keep) / (1 + keep));
   session.row("reproduction", {{"claim", fmt::format("a hysteresis of {:.0f} % leaves sqrt((1 - h) / (1 + h)) of a frame's noise", 100 * keep)},
-                               {"source", "seed 002, 5.1 (98 % and 75 %; the formula is that of an exponential mean)"},
+                               {"source", "McGuire et al. 2017, 5.1 (98 % and 75 %; the formula is that of an exponential mean)"},
                                {"source_value", source_value},
                                {"measured", left},
                                {"q1", nullptr},

@@ -119,7 +119,7 @@ Status cracks(Session& session) {
       session.row("reproduction",
                   {{"claim", fmt::format("a shadow map of {} texels a voxel leaves {} (share of lit voxels that it misses, {} voxels)",
                                          texels, texels < 2 ? "cracks" : "no cracks", mode == VoxelizeMode::thin ? "thin" : "conservative")},
-                   {"source", "seed 004, lines 1409 and 1509: twice the resolution of the voxels"},
+                   {"source", "Hong 2015, 2.5.3.3.9 and 4.1: twice the resolution of the voxels"},
                    {"source_value", nullptr},
                    {"measured", share},
                    {"q1", nullptr},
