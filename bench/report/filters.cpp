@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/claims.h"
 #include "bench/report/filter_rows.h"
 #include "bench/report/scenes.h"
 #include "bench/truth/bilateral_truth.h"
@@ -256,19 +257,13 @@ std::vector<Job> filter_reproduction(Session& session) {
                       if (!runs) return runs.status();
                       const Sample r = summarise(ratios(runs.value().times.a, runs.value().times.b));
                       const double value = wide * wide / (25.0 * levels);
-                      session.row("reproduction",
-                                  {{"claim", fmt::format("{} passes of 25 taps reach as far as {} x {}: {} taps for {}, time ratio",
-                                                         levels, wide, wide, 25 * levels, wide * wide)},
-                                   {"source", levels == 4 ? "count of taps, 4,096 against 100 for 64 pixels; levels as Dammertz et al. 2010"
-                                                          : "count of taps, 15,625 against 125 for 125 pixels; levels as Dammertz et al. 2010"},
-                                   {"source_value", levels == 4 ? 40.96 : 125.0},
-                                   {"measured", r.median},
-                                   {"q1", r.q1},
-                                   {"q3", r.q3},
-                                   {"verdict", verdict(r.median, value, 1.5)},
-                                   {"reason", "a pass reads and writes an image, and weighs taps that lie far apart; the window's "
-                                              "taps beyond the picture, 128 x 128, are left out"},
-                                   {"device", session.device()}});
+                      add(session, {fmt::format("{} passes of 25 taps reach as far as {} x {}: {} taps for {}, time ratio", levels, wide,
+                                                wide, 25 * levels, wide * wide),
+                                    levels == 4 ? "count of taps, 4,096 against 100 for 64 pixels; levels as Dammertz et al. 2010"
+                                                : "count of taps, 15,625 against 125 for 125 pixels; levels as Dammertz et al. 2010",
+                                    levels == 4 ? 40.96 : 125.0, r, within(r.median, value, 1.5), within_factor(1.5),
+                                    "a pass reads and writes an image, and weighs taps that lie far apart; the window's taps beyond "
+                                    "the picture, 128 x 128, are left out"});
                       return {};
                     }});
   return jobs;

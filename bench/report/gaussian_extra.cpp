@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/claims.h"
 #include "bench/report/gaussian.h"
 #include "bench/scene/images.h"
 #include "tests/cases/compare.h"
@@ -95,15 +96,7 @@ Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& f
   const auto pair = session.interleave(a.value(), b.value(), claim);
   if (!pair) return pair.status();
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
-  session.row("reproduction", {{"claim", claim},
-                               {"source", source},
-                               {"source_value", value},
-                               {"measured", r.median},
-                               {"q1", r.q1},
-                               {"q3", r.q3},
-                               {"verdict", verdict(r.median, value, close)},
-                               {"reason", reason},
-                               {"device", session.device()}});
+  add(session, {claim, source, value, r, within(r.median, value, close), within_factor(close), reason});
   return {};
 }
 
@@ -117,20 +110,11 @@ Status reproduce_truncation(Session& session, double k, double claimed) {
   const auto out = result_of(session, s);
   if (!out) return out.status();
   const double error = blur_error(s, row->values, out.value());
-  const bool kept = error <= claimed * 1.25 && error >= claimed / 1.25;
-  session.row("reproduction",
-              {{"claim", fmt::format("truncation at k = {} sigma costs this much per axis (half L1, sigma 12)", k)},
-               {"source", k == 3 ? "Real-Time Rendering 4e, 12.1 (3 sigma rule); erfc(3/sqrt 2) = 2.7e-3"
-                                 : "erfc(4/sqrt 2) = 6.3e-5"},
-               {"source_value", claimed},
-               {"measured", error},
-               {"q1", nullptr},
-               {"q3", nullptr},
-               {"verdict", kept ? "confirmed" : "not confirmed"},
-               {"reason",
+  add(session, {fmt::format("truncation at k = {} sigma costs this much per axis (half L1, sigma 12)", k),
+                k == 3 ? "Real-Time Rendering 4e, 12.1 (3 sigma rule); erfc(3/sqrt 2) = 2.7e-3" : "erfc(4/sqrt 2) = 6.3e-5",
+                claimed, once(error), within(error, claimed, 1.25), within_factor(1.25),
                 "the weight that is cut off: a little less than the integral beyond k sigma, since the last tap stands "
-                "for half a pixel more"},
-               {"device", session.device()}});
+                "for half a pixel more"});
   return {};
 }
 

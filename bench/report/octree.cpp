@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <luxel/mip_build.h>
 
+#include "bench/report/claims.h"
 #include "bench/report/mips.h"
 #include "bench/report/stage.h"
 #include "bench/scene/voxel_scene.h"
@@ -142,15 +143,8 @@ Result<std::shared_ptr<Run>> ready(Session& session, const Result<Plan>& plan) {
 }
 
 void reproduced(Session& session, const char* claim, const Sample& ratio, const std::string& reason) {
-  session.row("reproduction", {{"claim", claim},
-                               {"source", "Hong 2015, 4.4 (figures 53 to 55: 8.08 ms of 256^3 Sponza's steps removed, GTX 660)"},
-                               {"source_value", nullptr},
-                               {"measured", ratio.median},
-                               {"q1", ratio.q1},
-                               {"q3", ratio.q3},
-                               {"verdict", ratio.q1 > 1 ? "confirmed" : "not confirmed"},
-                               {"reason", reason},
-                               {"device", session.device()}});
+  add(session, {claim, "Hong 2015, 4.4 (figures 53 to 55: 8.08 ms of 256^3 Sponza's steps removed, GTX 660)", nullptr, ratio, ratio.q1 > 1,
+                quartile_above_one, reason});
 }
 
 Status beside_octree(Session& session, const Place& place, int depth) {

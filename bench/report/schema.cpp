@@ -84,6 +84,7 @@ const std::map<std::string, Fields>& sections() {
         {"measured", "n?"},
         {"q1", "n?"},
         {"q3", "n?"},
+        {"rule", "s"},
         {"verdict", "s"},
         {"reason", "s"},
         {"device", "s"}}},

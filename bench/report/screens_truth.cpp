@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/report/claims.h"
 #include "bench/report/screens.h"
 #include "bench/report/stage.h"
 #include "bench/scene/screen.h"
@@ -109,17 +110,14 @@ Status thin(Session& session, double reach) {
       ++met;
       missed += std::floor(hits[v][i] * width) != std::floor(truth[i] * width);
     }
-    session.row("reproduction",
-                {{"claim", fmt::format("hiz_ssr {}: share of rays of length {} that miss the pole, a pixel wide, that dda hits ({:.0f} rays hit one)",
-                                       name(v), reach, met)},
-                 {"source", "Uludag 2014; McGuire and Mara 2014: no feature is stepped over"},
-                 {"source_value", v == SsrVariant::linear ? 1.0 : 0.0},
-                 {"measured", met > 0 ? missed / met : std::numeric_limits<double>::quiet_NaN()},
-                 {"q1", nullptr},
-                 {"q3", nullptr},
-                 {"verdict", v == SsrVariant::linear ? (missed > 0 ? "confirmed" : "not confirmed") : missed == 0 && met > 0 ? "confirmed" : "not confirmed"},
-                 {"reason", v == SsrVariant::linear ? "32 uniform steps: what is thinner than a step is met by chance" : "every pixel on the way is bounded or looked at"},
-                 {"device", session.device()}});
+    const bool uniform = v == SsrVariant::linear;
+    add(session, {fmt::format("hiz_ssr {}: share of rays of length {} that miss the pole, a pixel wide, that dda hits ({:.0f} rays hit one)",
+                              name(v), reach, met),
+                  uniform ? "McGuire and Mara 2014: uniform steps step over features (no number is printed)"
+                          : "Uludag 2014; McGuire and Mara 2014: no feature is stepped over",
+                  uniform ? Cell() : Cell(0.0), once(met > 0 ? missed / met : std::numeric_limits<double>::quiet_NaN()),
+                  met > 0 && (missed > 0) == uniform, uniform ? "above 0" : "0",
+                  uniform ? "32 uniform steps: what is thinner than a step is met by chance" : "every pixel on the way is bounded or looked at"});
   }
   return {};
 }

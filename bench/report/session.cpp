@@ -19,6 +19,7 @@ namespace luxel::report {
 namespace {
 
 constexpr double quick_pairs_ms = 300, pairs_ms = 5000;  // what pairs may take, where three (whole reports: nine) take no longer
+constexpr double slow_pair_ms = 1000;                    // above it five must do, warm after one
 constexpr double long_s = 2;                             // rows that take so long are taken again once at most
 
 // Labels begin with their kernel's name.
@@ -171,8 +172,8 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   const double one = std::max(1e-3, std::min(first.total, second.total));
   const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 200;
   const int repeat = std::clamp(static_cast<int>(std::ceil(sample_ms / one)), 1, 1000);
-  // Quartiles need five; where a run takes long on the C++ execution or a report is quick, three must do.
-  const int least = (is_cpu() || settings_.quick) && one > 50 ? 3 : 5;
+  // Quartiles need five; where a run takes a second, or is slow for the C++ execution or a quick report, three must do.
+  const int least = one > ((is_cpu() || settings_.quick) ? 50 : 1000) ? 3 : 5;
   const int n = std::clamp(static_cast<int>(budget_ms / (one * repeat)), least, settings_.quick ? 9 : 21);
   return guarded(
       [&]() -> Result<Sample> {
@@ -195,12 +196,14 @@ Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const 
     return Pair{{first.value()}, {second.value()}};
   }
   double one = 0;
-  for (const Timed* warm : {&a, &b, &a, &b}) {
-    const Result<double> ms = (*warm)();
-    if (!ms) return ms.status();
-    one = warm == &a ? ms.value() : one + ms.value();
+  for (int warm = 0; warm < 2 && (warm == 0 || one < slow_pair_ms); ++warm) {
+    const Result<double> first = a(), second = b();
+    if (!first) return first.status();
+    if (!second) return second.status();
+    one = first.value() + second.value();
   }
-  const int n = settings_.quick ? std::clamp(static_cast<int>(quick_pairs_ms / one), 3, 9) : std::clamp(static_cast<int>(pairs_ms / one), 9, 25);
+  const int least = settings_.quick ? 3 : one < slow_pair_ms ? 9 : 5;
+  const int n = std::clamp(static_cast<int>((settings_.quick ? quick_pairs_ms : pairs_ms) / one), least, settings_.quick ? 9 : 25);
   return guarded(
       [&]() -> Result<Pair> {
         Pair pair;

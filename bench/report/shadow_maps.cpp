@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <luxel/voxel_inject.h>
 
+#include "bench/report/claims.h"
 #include "bench/report/shared_plans.h"
 #include "bench/report/updates.h"
 #include "bench/scene/rays.h"
@@ -116,17 +117,11 @@ Status cracks(Session& session) {
       }
       const double share = missed / std::max(all, 1.0);
       const bool enough = share <= 0.01;
-      session.row("reproduction",
-                  {{"claim", fmt::format("a shadow map of {} texels a voxel leaves {} (share of lit voxels that it misses, {} voxels)",
-                                         texels, texels < 2 ? "cracks" : "no cracks", mode == VoxelizeMode::thin ? "thin" : "conservative")},
-                   {"source", "Hong 2015, 2.5.3.3.9 and 4.1: twice the resolution of the voxels"},
-                   {"source_value", nullptr},
-                   {"measured", share},
-                   {"q1", nullptr},
-                   {"q3", nullptr},
-                   {"verdict", enough == (texels >= 2) ? "confirmed" : "not confirmed"},
-                   {"reason", "up to 1 % counts as none; voxels that a surface only grazes hold a part of it that is smaller than any texel"},
-                   {"device", session.device()}});
+      add(session, {fmt::format("a shadow map of {} texels a voxel leaves {} (share of lit voxels that it misses, {} voxels)", texels,
+                                texels < 2 ? "cracks" : "no cracks", mode == VoxelizeMode::thin ? "thin" : "conservative"),
+                    "Hong 2015, 2.5.3.3.9 and 4.1: twice the resolution of the voxels", nullptr, once(share), enough == (texels >= 2),
+                    texels < 2 ? "above 0.01" : "0.01 or less",
+                    "voxels that a surface only grazes hold a part of it that is smaller than any texel"});
     }
   }
   return {};

@@ -27,11 +27,6 @@ std::vector<double> ratios(const std::vector<double>& a, const std::vector<doubl
   return r;
 }
 
-const char* verdict(double measured, double claimed, double close) {
-  if (measured >= claimed / close && measured <= claimed * close) return "confirmed";
-  return measured > claimed ? "more than claimed" : "less than claimed";
-}
-
 std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> d;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) d.push_back(a[i] - b[i]);

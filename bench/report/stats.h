@@ -18,8 +18,6 @@ Cell cell_of(const Sample& sample);
 
 /// a[i] / b[i].
 std::vector<double> ratios(const std::vector<double>& a, const std::vector<double>& b);
-/// What became of a claimed ratio: confirmed where the measured one is within a factor of `close`.
-const char* verdict(double measured, double claimed, double close);
 /// a[i] - b[i].
 std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b);
 

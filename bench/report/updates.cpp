@@ -77,7 +77,7 @@ Status scroll(Session& session, const std::string& shown, const std::string& wha
   VoxelizeParams window = shape(voxels.value());
   window.toroidal = true;
   const std::map<std::string, std::string> other{{"colour", "anew"}, {"normal", "anew normal"}};
-  for (const int by : quick ? std::vector{4, extent / 2} : std::vector{1, 4, 16, extent / 2}) {
+  for (const int by : quick ? std::vector{4, extent / 2} : std::vector{1, 4, extent / 2}) {
     VoxelizeParams before = window;
     for (std::size_t k = 0; k < 3; ++k) before.window[k] = -extent / 2;
     VoxelizeParams after = before;

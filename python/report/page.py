@@ -401,6 +401,7 @@ def reproduction(report):
                 number(row["source_value"]),
                 number(row["measured"]),
                 "–" if row["q1"] is None else f'{number(row["q1"])}–{number(row["q3"])}',
+                row["rule"],
                 row["verdict"],
                 row["reason"],
             ],
@@ -408,7 +409,7 @@ def reproduction(report):
         for row in mine
     ]
     return "<h2>Claims measured again</h2>" + table(
-        ["claim", "source", "device", "#claimed", "#measured", "#quartiles", "verdict", "reason"], body
+        ["claim", "source", "device", "#claimed", "#measured", "#quartiles", "confirmed where it is", "verdict", "reason"], body
     )
 
 
