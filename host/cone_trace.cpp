@@ -389,8 +389,8 @@ class ConeTracing {
                    {"ROTATE", p_.rotate && what == "diffuse"},
                    {"SKY", p_.sky_size > 0 && radiance}},
                   slots);
-    planner_.rounds(std::ceil(static_cast<double>(cones) / (p_.pattern_x * p_.pattern_y)) *
-                    ((p_.max_steps > 0 ? std::min(p_.max_steps, steps_needed()) : steps_needed()) + 2.0 * cone_trace_levels(p_) + 8));
+    const double steps = p_.max_steps > 0 ? std::min(p_.max_steps, steps_needed()) : steps_needed();
+    planner_.rounds(std::ceil(static_cast<double>(cones) / (p_.pattern_x * p_.pattern_y)) * (steps + 2.0 * cone_trace_levels(p_) + 8));
     const double receivers = static_cast<double>(p_.width) * p_.height;
     const double volumes = static_cast<double>(texels(p_.extent) + cone_trace_coarse_texels(p_));
     planner_.cost(0, volumes * static_cast<double>(bytes_per_pixel(p_.format)) + receivers * 48);

@@ -14,16 +14,14 @@ void add(Session& session, const Claim& claim) {
                                {"measured", m.median},
                                {"q1", m.n > 1 ? Cell(m.q1) : Cell()},
                                {"q3", m.n > 1 ? Cell(m.q3) : Cell()},
-                               {"rule", claim.rule},
-                               {"verdict", claim.kept ? "confirmed" : "not confirmed"},
+                               {"rule", claim.rule.text},
+                               {"verdict", claim.rule.kept ? "confirmed" : "not confirmed"},
                                {"reason", claim.reason},
                                {"device", session.device()}});
 }
 
-bool within(double measured, double claimed, double factor) {
-  return measured >= claimed / factor && measured <= claimed * factor;
+Rule within(double measured, double claimed, double factor) {
+  return {fmt::format("within a factor of {}", factor), measured >= claimed / factor && measured <= claimed * factor};
 }
-
-std::string within_factor(double factor) { return fmt::format("within a factor of {}", factor); }
 
 }  // namespace luxel::report

@@ -9,12 +9,17 @@ namespace luxel::report {
 
 class Session;
 
+/// When a claim counts as confirmed, and whether it does.
+struct Rule {
+  std::string text;
+  bool kept = false;
+};
+
 struct Claim {
   std::string text, source;
   Cell source_value;  ///< null: the source prints no number
-  Sample measured;      ///< n 1: no quartiles
-  bool kept = false;
-  std::string rule;  ///< when it counts as confirmed
+  Sample measured;    ///< n 1: no quartiles
+  Rule rule;
   std::string reason;
 };
 
@@ -23,12 +28,9 @@ void add(Session& session, const Claim& claim);
 
 /// A measurement that is taken once, as it is the same in every run.
 inline Sample once(double value) { return {value, value, value, 1}; }
-/// Whether `measured` is within this factor of what is claimed.
-bool within(double measured, double claimed, double factor);
-/// That, as a rule.
-std::string within_factor(double factor);
-
-/// The rule of ratios without a number to compare with.
-inline constexpr const char* quartile_above_one = "lower quartile above 1";
+/// Within this factor of what is claimed.
+Rule within(double measured, double claimed, double factor);
+/// Of ratios without a number to compare with.
+inline Rule above_one(const Sample& ratio) { return {"lower quartile above 1", ratio.q1 > 1}; }
 
 }  // namespace luxel::report

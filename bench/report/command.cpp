@@ -57,7 +57,8 @@ void add_report(CLI::App& app, int& exit_status) {
       "device's driver or what is asked for is another. After changes elsewhere (host code, the report itself): --fresh.\n"
       "Of the extreme cases a report shows the quick ones, on each driver those that go furthest; `luxel stability` has all.\n"
       "Errors are the same to the last digit in every run (but of voxelize's moving_average and last_write, which depend on\n"
-      "timing); times are medians with quartiles, taken again while the machine is busy. Photographs of the data folder that are absent are named and left out.");
+      "timing); times are medians with quartiles, taken again while the machine is busy. Photographs of the data folder that\n"
+      "are absent are named and left out.");
   command->callback([a, &exit_status] {
     if (!a->list.empty())
       exit_status = report::write_listing(a->list);

@@ -96,7 +96,7 @@ Status reproduce(Session& session, const BlurSetting& slow, const BlurSetting& f
   const auto pair = session.interleave(a.value(), b.value(), claim);
   if (!pair) return pair.status();
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
-  add(session, {claim, source, value, r, within(r.median, value, close), within_factor(close), reason});
+  add(session, {claim, source, value, r, within(r.median, value, close), reason});
   return {};
 }
 
@@ -112,7 +112,7 @@ Status reproduce_truncation(Session& session, double k, double claimed) {
   const double error = blur_error(s, row->values, out.value());
   add(session, {fmt::format("truncation at k = {} sigma costs this much per axis (half L1, sigma 12)", k),
                 k == 3 ? "Real-Time Rendering 4e, 12.1 (3 sigma rule); erfc(3/sqrt 2) = 2.7e-3" : "erfc(4/sqrt 2) = 6.3e-5",
-                claimed, once(error), within(error, claimed, 1.25), within_factor(1.25),
+                claimed, once(error), within(error, claimed, 1.25),
                 "the weight that is cut off: a little less than the integral beyond k sigma, since the last tap stands "
                 "for half a pixel more"});
   return {};

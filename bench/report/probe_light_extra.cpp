@@ -293,8 +293,8 @@ Status against_rays(Session& session, bool large) {
   if (!pair) return pair.status();
   const Sample r = summarise(ratios(pair.value().a, pair.value().b));
   const auto claim = [&](const char* what, const Sample& found, const std::string& reason) {
-    add(session, {what, "McGuire et al. 2017, section 6, figure 11 (13 ms against 0.2 ms)", 65, found, found.median >= 65 / 2.0,
-                  "half of it or more",
+    add(session, {what, "McGuire et al. 2017, section 6, figure 11 (13 ms against 0.2 ms)", 65, found,
+                  {"half of it or more", found.median >= 65 / 2.0},
                   fmt::format("cornell, {}x{}, {} probes of {}x{}; {}", width, height, w.probes.size(), size, size, reason)});
   };
   constexpr const char* of_one = "prefiltered visibility is 65 times as fast as one ray a pixel with a filter (time ratio)";
@@ -369,7 +369,7 @@ Status hysteresis(Session& session, double keep) {
   const double left = deviation(blended) / deviation(alone), expected = std::sqrt((1 - keep) / (1 + keep));
   add(session, {fmt::format("a hysteresis of {:.0f} % leaves sqrt((1 - h) / (1 + h)) of a frame's noise", 100 * keep),
                 "McGuire et al. 2017, 5.1 (98 % and 75 %; the formula is that of an exponential mean)", expected, once(left),
-                std::fabs(left / expected - 1) <= 0.2, "within 20 %",
+                {"within 20 %", std::fabs(left / expected - 1) <= 0.2},
                 fmt::format("{} frames of 16 probes whose texels hold 8 with probability 1/8", frames)});
   return {};
 }

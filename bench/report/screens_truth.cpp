@@ -116,7 +116,7 @@ Status thin(Session& session, double reach) {
                   uniform ? "McGuire and Mara 2014: uniform steps step over features (no number is printed)"
                           : "Uludag 2014; McGuire and Mara 2014: no feature is stepped over",
                   uniform ? Cell() : Cell(0.0), once(met > 0 ? missed / met : std::numeric_limits<double>::quiet_NaN()),
-                  met > 0 && (missed > 0) == uniform, uniform ? "above 0" : "0",
+                  {uniform ? "above 0" : "0", met > 0 && (missed > 0) == uniform},
                   uniform ? "32 uniform steps: what is thinner than a step is met by chance" : "every pixel on the way is bounded or looked at"});
   }
   return {};

@@ -196,7 +196,7 @@ Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const 
     return Pair{{first.value()}, {second.value()}};
   }
   double one = 0;
-  for (int warm = 0; warm < 2 && (warm == 0 || one < slow_pair_ms); ++warm) {
+  for (int warm = 0; warm < (one < slow_pair_ms ? 2 : 1); ++warm) {
     const Result<double> first = a(), second = b();
     if (!first) return first.status();
     if (!second) return second.status();

@@ -119,8 +119,8 @@ Status cracks(Session& session) {
       const bool enough = share <= 0.01;
       add(session, {fmt::format("a shadow map of {} texels a voxel leaves {} (share of lit voxels that it misses, {} voxels)", texels,
                                 texels < 2 ? "cracks" : "no cracks", mode == VoxelizeMode::thin ? "thin" : "conservative"),
-                    "Hong 2015, 2.5.3.3.9 and 4.1: twice the resolution of the voxels", nullptr, once(share), enough == (texels >= 2),
-                    texels < 2 ? "above 0.01" : "0.01 or less",
+                    "Hong 2015, 2.5.3.3.9 and 4.1: twice the resolution of the voxels", nullptr, once(share),
+                    {texels < 2 ? "above 0.01" : "0.01 or less", enough == (texels >= 2)},
                     "voxels that a surface only grazes hold a part of it that is smaller than any texel"});
     }
   }
