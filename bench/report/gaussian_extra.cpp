@@ -162,7 +162,8 @@ std::vector<Job> gaussian_reproduction(Session& session) {
       return reproduce(
           session, {scene, direct, 3}, {scene, separable, 3},
           fmt::format("a filter of {0}x{0} costs d^2 taps in one pass and 2d in two: time ratio d/2", d), rtr, d / 2,
-          1.5, "the separable form writes and reads an image between its passes, which the count of taps leaves out");
+          1.5, "less: the separable form writes and reads an image between its passes; more: it loads a tap once for all results of "
+               "a block, the direct form for each result anew; the count of taps leaves out both");
     }));
   for (const int radius : quick ? std::vector<int>{12} : std::vector<int>{4, 12})
     jobs.push_back(job(fmt::format("reproduction: two texels a tap, R {}", radius), [=, &session] {

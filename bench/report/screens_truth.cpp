@@ -84,18 +84,20 @@ Status measure(Session& session, const Place& place, SsrVariant variant, bool sk
   return {};
 }
 
-// Poles one pixel wide, 37 pixels apart; rays along rows meet them at every distance.
+// Poles one pixel wide, 37 pixels apart; rays along rows begin at every distance from them.
 Status thin(Session& session, double reach) {
-  constexpr int width = 640, height = 64, rays = 2048;
+  constexpr int width = 640, height = 64, rays = 2048, between = 37;
   HizSsrParams p = cases::ssr_params(width, height);
   p.thickness = 0.2;
   p.rays = rays;
   p.max_distance = reach;
   cases::Values stored, starts;
-  for (int i = 0; i < width * height; ++i) stored.push_back(i % width % 37 == 20 ? 3 : HUGE_VAL);
-  const double left = -p.centre_x / p.focal_x * 3.1;
-  for (int i = 0; i < rays; ++i)
-    cases::add_ray(starts, {left + 0.01, -0.2 + 0.4 * i / rays, -3.01 - 0.15 * i / rays}, {1, 0, 0.02 * (i % 7) / 7});
+  for (int i = 0; i < width * height; ++i) stored.push_back(i % width % between == 20 ? 3 : HUGE_VAL);
+  const double pixel = 3.1 / p.focal_x, left = -p.centre_x * pixel;
+  for (int i = 0; i < rays; ++i) {
+    const double first = left + 0.01 + between * pixel * std::fmod(i * 0.6180339887498949, 1.0);
+    cases::add_ray(starts, {first, -0.2 + 0.4 * i / rays, -3.01 - 0.15 * i / rays}, {1, 0, 0.02 * (i % 7) / 7});
+  }
   std::map<SsrVariant, cases::Values> hits;
   for (const SsrVariant v : {SsrVariant::dda, SsrVariant::hiz, SsrVariant::linear}) {
     p.variant = v;
