@@ -204,21 +204,19 @@ Leaking leaking(const Stage& stage, const std::vector<double>& x) {
   return {truth > 0 ? ours / truth : 0, shares[shares.size() / 20]};
 }
 
-// The same probes with finer maps: what is left are probes, their weights and the scene between them.
-Result<std::vector<double>> finest(Session& session, const Stage& stage, const SceneSetting& s) {
-  static std::map<std::string, std::vector<double>> made;
-  std::vector<double>& x = made[fmt::format("{} {} {}", s.place.name, s.probes, variant(s))];
-  if (!x.empty()) return x;
-  SceneSetting fine = s;
-  fine.size = 64, fine.irradiance = 32, fine.distances = 32;
-  scene::ProbeSceneSettings p = settings_of(stage.scene, fine, session.settings().quick);
-  p.filter.samples = 64;
-  auto built = scene::ProbeScene::build(borrowed(session), *stage.rays, p);
-  if (!built) return built.status();
-  if (Status lit = built.value().light(); !lit) return lit;
-  const auto light = built.value().shade(p.bounce, probe_receivers(stage));
-  if (!light) return light.status();
-  return x = three(light.value().indirect);
+// Irradiance from the same probes with every map twice as fine: what is left are probes, their weights and the scene between them.
+Result<std::vector<double>> finer(Session& session, const Stage& stage, const SceneSetting& s) {
+  return session.shared("finer maps: " + label(s), [&]() -> Result<std::vector<double>> {
+    SceneSetting fine = s;
+    fine.size *= 2, fine.irradiance *= 2, fine.distances *= 2;
+    const scene::ProbeSceneSettings p = settings_of(stage.scene, fine, session.settings().quick);
+    auto built = scene::ProbeScene::build(borrowed(session), *stage.rays, p);
+    if (!built) return built.status();
+    if (Status lit = built.value().light(); !lit) return lit;
+    const auto light = built.value().shade(p.bounce, probe_receivers(stage));
+    if (!light) return light.status();
+    return three(light.value().indirect);
+  });
 }
 
 Status measure_scene(Session& session, const SceneSetting& s) {
@@ -252,7 +250,7 @@ Status measure_scene(Session& session, const SceneSetting& s) {
   row.knobs.set("shadow_energy", leaks.shadow);
   row.knobs.set("darkest_twentieth", leaks.pools);
   if (!quick && !session.is_cpu()) {
-    const auto fine = finest(session, stage, s);
+    const auto fine = finer(session, stage, s);
     if (!fine) return fine.status();
     const Relative model = relative(fine.value(), fine.value(), stage.t1, stage.t2, stage.mean);
     const Relative maps = relative(x, x, fine.value(), fine.value(), stage.mean);

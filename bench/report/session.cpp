@@ -18,8 +18,8 @@
 namespace luxel::report {
 namespace {
 
-constexpr double quick_pairs_ms = 300, pairs_ms = 5000;  // what pairs may take, where three (whole reports: nine) take no longer
-constexpr double slow_pair_ms = 1000;                    // above it five must do, warm after one
+constexpr double quick_pairs_ms = 300, pairs_ms = 3000;  // what pairs may take, where three (whole reports: nine) take no longer
+constexpr double slow_pair_ms = 500;                     // above it five must do, warm after one
 constexpr double long_s = 2;                             // rows that take so long are taken again once at most
 
 // Labels begin with their kernel's name.
@@ -143,9 +143,9 @@ void Session::run(const std::vector<Job>& jobs) {
 template <class Take>
 auto Session::guarded(const Take& take, const std::string& label) -> decltype(take()) {
   ++timed_;
-  // Where the machine is busy all the time, taking rows again does not help: it is bounded, and more so in quick reports.
+  // Where the machine is busy all the time, taking rows again does not help: it is bounded.
   int most = settings_.quick ? 1 : 3;
-  const auto may_retake = [&] { return retaken_ < (settings_.quick ? std::max(8, timed_ / 10) : std::max(20, timed_ / 4)); };
+  const auto may_retake = [&] { return retaken_ < std::max(settings_.quick ? 8 : 20, timed_ / 10); };
   double lowest = 0;
   for (int attempt = 0;; ++attempt) {
     const double before = guard_.measure();
@@ -225,10 +225,17 @@ void Session::load_oracles() {
   for (std::string line; std::getline(file, line);) {
     const Json j = Json::parse(line, nullptr, false);
     if (!j.is_object() || !j.contains("modules") || !unchanged(j["modules"])) continue;
+    const auto number_of = [](const Json& v) { return v.is_number() ? v.get<double>() : NAN; };
+    if (j.contains("numbers")) {
+      std::vector<double>& numbers = numbers_[j.at("key").get<std::string>()];
+      numbers.clear();
+      for (const Json& v : j["numbers"]) numbers.push_back(number_of(v));
+      continue;
+    }
     std::vector<Oracle>& list = oracles_[j.at("key").get<std::string>()];
     list.clear();
     for (const Json& o : j.at("oracles")) {
-      const auto number = [&](const char* field) { return o.at(field).is_number() ? o.at(field).get<double>() : NAN; };
+      const auto number = [&](const char* field) { return number_of(o.at(field)); };
       list.push_back({o.at("bits").get<std::uint64_t>(), number("rounding"), number("storage"), number("method")});
     }
   }
@@ -242,10 +249,22 @@ Result<std::vector<Oracle>> Session::oracles(const std::string& key,
   Json list = Json::array();
   for (const Oracle& o : made.value())
     list.push_back({{"bits", o.bits}, {"rounding", o.rounding}, {"storage", o.storage}, {"method", o.method}});
+  save_oracle(key, "oracles", std::move(list));
+  return oracles_[key] = std::move(made).value();
+}
+
+Result<std::vector<double>> Session::shared(const std::string& label, const std::function<Result<std::vector<double>>()>& compute) {
+  if (const auto found = numbers_.find(label); found != numbers_.end()) return found->second;
+  Result<std::vector<double>> made = compute();
+  if (!made) return made;
+  save_oracle(label, "numbers", made.value());
+  return numbers_[label] = std::move(made).value();
+}
+
+void Session::save_oracle(const std::string& key, const char* what, Json value) {
   // A line of its own, also after one that a killed process left in its middle.
   std::ofstream(settings_.out + "/oracles.jsonl", std::ios::app)
-      << "\n" + Json({{"key", key}, {"oracles", list}, {"modules", Json(compiled_[kernel_])}}).dump() + "\n";
-  return oracles_[key] = std::move(made).value();
+      << "\n" + Json({{"key", key}, {what, std::move(value)}, {"modules", Json(compiled_[kernel_])}}).dump() + "\n";
 }
 
 Result<std::vector<ErrorSplit>> Session::errors(const std::string& label, const std::vector<std::string>& metrics,

@@ -79,6 +79,9 @@ class Session {
                                          std::uint64_t bits, bool promised,
                                          const std::function<Result<std::vector<Oracle>>()>& oracles,
                                          const std::function<Result<std::vector<double>>()>& device);
+  /// Numbers that every device would find alike, and that take long: computed once in a report for a `label`, and shared by its
+  /// devices through a file.
+  Result<std::vector<double>> shared(const std::string& label, const std::function<Result<std::vector<double>>()>& compute);
   /// Sends a row of the frontier.
   void frontier(const FrontierRow& row);
 
@@ -96,6 +99,7 @@ class Session {
   std::shared_ptr<Context> noting(std::shared_ptr<Context> context);
   void send(nlohmann::ordered_json message);
   void load_oracles();
+  void save_oracle(const std::string& key, const char* what, nlohmann::ordered_json value);
   bool keep(const std::string& key, const std::string& label);
   void add_bits(const std::string& kernel, bool equal, const std::string& label);
   void add_share(const std::string& kernel, const std::string& name, const std::string& promise, double share,
@@ -111,6 +115,7 @@ class Session {
   Guard guard_;
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, std::vector<Oracle>> oracles_;
+  std::map<std::string, std::vector<double>> numbers_;  // of shared()
   std::set<std::string> seen_;
   std::shared_ptr<const std::map<std::string, KeptJob>> kept_;  // of an earlier run, by key
   std::string job_, kernel_;  // the job that runs: its key, and its label's kernel; empty: none

@@ -23,3 +23,10 @@ FN ivec3 position_of(int i, ivec3 extent) {
 // the first.
 FN ivec3 first_voxel(ivec3 low, ivec3 first) { return max((low - 1) >> 16, first); }
 FN ivec3 last_voxel(ivec3 high, ivec3 last) { return min(high >> 16, last); }
+
+// The next one of first..last, x first; after the last one lies beyond it along z.
+FN ivec3 following(ivec3 p, ivec3 first, ivec3 last) {
+    if (p.x < last.x) return ivec3(p.x + 1, p.y, p.z);
+    if (p.y < last.y) return ivec3(first.x, p.y + 1, p.z);
+    return ivec3(first.x, first.y, p.z + 1);
+}

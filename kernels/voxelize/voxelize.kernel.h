@@ -161,11 +161,9 @@ FN void fragment(CTX, ivec3 p, int mesh_triangle) {
 #endif
 
 // The box round the centre of voxel p with half extents h, in half voxels.
-FN bool box_meets(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2,
-                  ivec3 corner, ivec3 p, ivec3 h) {
+FN int box_meets_roughly(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 corner, ivec3 p, ivec3 h) {
     const vec3 c = vec3(float(p.x - corner.x) + 0.5f, float(p.y - corner.y) + 0.5f, float(p.z - corner.z) + 0.5f);
-    const int meets = meets_roughly(la, lb, ld, lw, plane, slack, c, 0.5f * vec3(float(h.x), float(h.y), float(h.z)));
-    return meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, 2 * p + 1, h));
+    return meets_roughly(la, lb, ld, lw, plane, slack, c, 0.5f * vec3(float(h.x), float(h.y), float(h.z)));
 }
 
 FN bool dilated_meets(ivec3 v0, ivec3 v1, ivec3 v2, int axis, ivec3 voxel) {
@@ -180,27 +178,34 @@ FN bool dilated_meets(ivec3 v0, ivec3 v1, ivec3 v2, int axis, ivec3 voxel) {
     return meets;
 }
 
-FN bool voxel_meets(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 v0, ivec3 v1, ivec3 v2,
-                    int dominant, ivec3 corner, ivec3 p) {
-    if (MODE == MODE_DILATED) return dilated_meets(v0, v1, v2, dominant, p);
-    if (MODE == MODE_CONSERVATIVE)
-        return box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, ivec3(1, 1, 1));
+FN ivec3 segment_along(int axis) { return ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0); }
+
+FN int voxel_meets_roughly(vec4 la[3], vec4 lb[3], vec4 ld[3], vec4 lw[3], vec4 plane, float slack, ivec3 v0, ivec3 v1,
+                           ivec3 v2, int dominant, ivec3 corner, ivec3 p) {
+    if (MODE == MODE_DILATED) return dilated_meets(v0, v1, v2, dominant, p) ? ROUGH_YES : ROUGH_NO;
+    if (MODE == MODE_CONSERVATIVE) return box_meets_roughly(la, lb, ld, lw, plane, slack, corner, p, ivec3(1, 1, 1));
     const ivec3 low = min(v0, min(v1, v2));
     const ivec3 high = max(v0, max(v1, v2));
-    bool meets = false;
-    for (int axis = 0; axis < 3 && !meets; ++axis) {
-        const ivec3 h = ivec3(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
-        meets = bounds_meet(low, high, 2 * p + 1, h) &&
-                box_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, corner, p, h);
+    int meets = ROUGH_NO;
+    for (int axis = 0; axis < 3; ++axis) {
+        const ivec3 h = segment_along(axis);
+        if (bounds_meet(low, high, 2 * p + 1, h))
+            meets = max(meets, box_meets_roughly(la, lb, ld, lw, plane, slack, corner, p, h));
     }
     return meets;
 }
 
-// The next voxel of first..last, x first; after the last one lies beyond it along z.
-FN ivec3 following(ivec3 p, ivec3 first, ivec3 last) {
-    if (p.x < last.x) return ivec3(p.x + 1, p.y, p.z);
-    if (p.y < last.y) return ivec3(first.x, p.y + 1, p.z);
-    return ivec3(first.x, first.y, p.z + 1);
+// Where that leaves it open.
+FN bool voxel_meets(ivec3 v0, ivec3 v1, ivec3 v2, ivec3 p) {
+    if (MODE == MODE_CONSERVATIVE) return meets_exactly(v0, v1, v2, 2 * p + 1, ivec3(1, 1, 1));
+    const ivec3 low = min(v0, min(v1, v2));
+    const ivec3 high = max(v0, max(v1, v2));
+    bool meets = false;
+    for (int axis = 0; axis < 3 && !meets; ++axis) {
+        const ivec3 h = segment_along(axis);
+        meets = bounds_meet(low, high, 2 * p + 1, h) && meets_exactly(v0, v1, v2, 2 * p + 1, h);
+    }
+    return meets;
 }
 
 FN void voxelize_piece(CTX, int t, int brick, int slot) {
@@ -255,13 +260,14 @@ FN void voxelize_piece(CTX, int t, int brick, int slot) {
     ivec3 next = first;
     for (;;) {
         ivec3 p = next;
-        bool meets = false;
-        while (next.z <= last.z && !meets) {
+        int meets = ROUGH_NO;
+        while (next.z <= last.z && meets == ROUGH_NO) {
             p = next;
-            meets = voxel_meets(la, lb, ld, lw, plane, slack, v0, v1, v2, dominant, corner, p);
+            meets = voxel_meets_roughly(la, lb, ld, lw, plane, slack, v0, v1, v2, dominant, corner, p);
             next = following(next, first, last);
         }
-        if (!meets) break;
+        if (meets == ROUGH_NO) break;
+        if (meets == ROUGH_UNDECIDED && !voxel_meets(v0, v1, v2, p)) continue;
         vec4 paint = colour;
         vec4 part = vec4(0.0f);
         const vec3 at = vec3(float(p.x - corner.x), float(p.y - corner.y), float(p.z - corner.z));

@@ -49,19 +49,25 @@ FN void refine(CTX, int t, ivec3 from, ivec3 to) {
     const vec3 bc = voxels_of(v2 - v1);
     const vec3 ca = voxels_of(v0 - v2);
     ROUGH_TRIANGLE(span)
-    for (int z = begin.z; z <= end.z; ++z)
-        for (int y = begin.y; y <= end.y; ++y)
-            for (int x = begin.x; x <= end.x; ++x) {
-                const ivec3 block = ivec3(x, y, z);
-                const ivec3 from_voxel = max(block * SIDE, first);
-                const ivec3 to_voxel = min(block * SIDE + (SIDE - 1), last) + 1;
-                const ivec3 centre = from_voxel + to_voxel;  // half voxels
-                const ivec3 size = to_voxel - from_voxel;
-                const int meets =
-                    meets_roughly(la, lb, ld, lw, plane, slack, 32768.0f * voxels_of(centre - 2 * first), 32768.0f * voxels_of(size));
-                if (meets == ROUGH_YES || (meets == ROUGH_UNDECIDED && meets_exactly(v0, v1, v2, centre, size)))
-                    keep(ctx, t, block, grid);
-            }
+    // Look for the next block, then decide on it: neighbouring invocations do the same thing at the same time.
+    ivec3 next = begin;
+    for (;;) {
+        ivec3 block = next;
+        ivec3 centre = next;  // half voxels
+        ivec3 size = next;
+        int meets = ROUGH_NO;
+        while (next.z <= end.z && meets == ROUGH_NO) {
+            block = next;
+            const ivec3 from_voxel = max(block * SIDE, first);
+            const ivec3 to_voxel = min(block * SIDE + (SIDE - 1), last) + 1;
+            centre = from_voxel + to_voxel;
+            size = to_voxel - from_voxel;
+            meets = meets_roughly(la, lb, ld, lw, plane, slack, 32768.0f * voxels_of(centre - 2 * first), 32768.0f * voxels_of(size));
+            next = following(next, begin, end);
+        }
+        if (meets == ROUGH_NO) break;
+        if (meets == ROUGH_YES || meets_exactly(v0, v1, v2, centre, size)) keep(ctx, t, block, grid);
+    }
 }
 
 KERNEL(voxelize_refine) {
