@@ -13,6 +13,7 @@
 #include "bench/report/frontier.h"
 #include "bench/report/report.h"
 #include "bench/report/schema.h"
+#include "bench/report/stage.h"
 #include "bench/report/stats.h"
 #include "tests/report/errors_of.h"
 #include "tests/support/run.h"
@@ -210,6 +211,16 @@ TEST(ReportDevices, AreChosenByNameAndTheOracleIsNone) {
           "--device is gtx; expected opencl, vulkan, cpu, or an index or part of a name of: 0 opencl:pthread-Xeon"),
       std::string::npos);
   EXPECT_TRUE(choose_devices({machine_devices()[2]}, {"opencl", "cpu"}, {"opencl"}).ok());
+}
+
+// A job that takes the small stage leaves the next one its full stage, in whichever order.
+TEST(ReportStage, QuickAndFullAreApart) {
+  const Place furnace{"furnace (generated)", "furnace", {{}, {}, 0}};
+  const auto quick = stage_of(furnace, true), full = stage_of(furnace, false), again = stage_of(furnace, true);
+  ASSERT_TRUE(quick.ok() && full.ok() && again.ok());
+  EXPECT_EQ(quick.value()->seen.pixels(), 48u * 27u);
+  EXPECT_EQ(full.value()->seen.pixels(), 96u * 54u);
+  EXPECT_EQ(quick.value(), again.value());
 }
 
 TEST(ReportChild, TellsHowItEndedAndKeepsItsLines) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -50,40 +52,58 @@ const std::vector<double>& by_rays(const ConeTraceParams& params, const std::vec
   return irradiance;
 }
 
-Status measure(Session& session, const RenderSetting& s) {
-  const bool quick = session.settings().quick;
-  const auto found = stage_of(s.place, quick);
-  if (!found) return found.status();
-  const Stage& stage = *found.value();
+// The voxels of a setting, lit, and how long that took. Settings that differ in cones alone share them: light, with its shadow
+// rays, takes longest by far.
+struct Lit {
+  std::string what;
+  std::optional<scene::VoxelScene> voxels;
+  std::vector<double> update;
+};
+
+Status light(Session& session, const RenderSetting& s, const Stage& stage, Lit& lit) {
+  const std::string what = fmt::format("{} {} {}", s.place.name, s.resolution, s.anisotropic);
+  if (lit.what == what) return {};
+  lit.what.clear();
+  lit.voxels.reset();
+  lit.update.clear();
   scene::VoxelSceneSettings settings;
   settings.resolution = s.resolution;
   settings.rays = &*stage.rays;
   settings.variant = s.anisotropic ? ConeVariant::anisotropic : ConeVariant::isotropic;
+  // The context is the session's; it outlives the scene.
+  const std::shared_ptr<Context> context(std::shared_ptr<Context>(), &session.context());
+  auto built = scene::VoxelScene::build(context, stage.scene, settings);
+  if (!built) return built.status();
+  lit.voxels.emplace(std::move(built).value());
+  for (int run = 0; run < (session.is_cpu() || session.settings().quick ? 1 : 3); ++run) {
+    if (Status done = lit.voxels->light(); !done) return done;
+    lit.update.push_back(total(lit.voxels->light_steps()));
+  }
+  lit.what = what;
+  return {};
+}
+
+Status measure(Session& session, const RenderSetting& s, Lit& lit) {
+  const bool quick = session.settings().quick;
+  const auto found = stage_of(s.place, quick);
+  if (!found) return found.status();
+  const Stage& stage = *found.value();
   ConeTraceParams cones;
   cones.cones = cone_set(s.cones).value();
   cones.step_scale = s.step;
   cones.occlusion = false;
 
-  // The context is the session's; it outlives the scene.
-  const std::shared_ptr<Context> context(std::shared_ptr<Context>(), &session.context());
-  auto built = scene::VoxelScene::build(context, stage.scene, settings);
-  if (!built) return built.status();
-  scene::VoxelScene& voxels = built.value();
+  if (Status done = light(session, s, stage, lit); !done) return done;
+  scene::VoxelScene& voxels = *lit.voxels;
   const dvec3 origin(voxels.grid().origin[0], voxels.grid().origin[1], voxels.grid().origin[2]);
   std::vector<float> receivers;
   for (const std::size_t i : stage.pixels) {
     const dvec3 p = stage.seen.at(stage.seen.position, i) - origin, n = stage.seen.at(stage.seen.normal, i);
     for (const double v : {p.x, p.y, p.z, 1.0, n.x, n.y, n.z, 0.0}) receivers.push_back(static_cast<float>(v));
   }
-  std::vector<double> update, shade;
+  std::vector<double> shade;
   scene::ConeLight light;
-  // Lights with shadow rays take longest by far: quick reports have them once.
-  const int runs = session.is_cpu() ? 1 : 3;
-  for (int run = 0; run < runs; ++run) {
-    if (run == 0 || !quick) {
-      if (Status lit = voxels.light(); !lit) return lit;
-      update.push_back(total(voxels.light_steps()));
-    }
+  for (int run = 0; run < (session.is_cpu() ? 1 : 3); ++run) {
     auto traced = voxels.trace(cones, receivers, {});
     if (!traced) return traced.status();
     light = std::move(traced).value();
@@ -113,7 +133,7 @@ Status measure(Session& session, const RenderSetting& s) {
   row.error.model = model.value;
   row.error.standard_error = method.error;
   row.build = phase({total(voxels.build_steps())});
-  row.update = phase(update);
+  row.update = phase(lit.update);
   row.shade = phase(shade);
   row.memory = voxels.memory_bytes();
   session.frontier(row);
@@ -125,8 +145,9 @@ Status measure(Session& session, const RenderSetting& s) {
 std::vector<Job> rendered_grid(Session& session, std::vector<std::string>& missing) {
   const bool quick = session.settings().quick;
   std::vector<Job> jobs;
+  const auto lit = std::make_shared<Lit>();
   const auto add = [&](const RenderSetting& s) {
-    jobs.push_back({label(s), [&session, s] { return measure(session, s); }});
+    jobs.push_back({label(s), [&session, s, lit] { return measure(session, s, *lit); }});
   };
   const std::vector<Place> all = places(missing);
   for (const Place& place : all) {
@@ -140,7 +161,7 @@ std::vector<Job> rendered_grid(Session& session, std::vector<std::string>& missi
       continue;
     }
     for (const int resolution : session.is_cpu() ? std::vector<int>{64} : std::vector<int>{64, 128})
-      for (const bool anisotropic : {false, true}) add({place, resolution, 6, anisotropic, 0.5});
+      for (const bool anisotropic : {true, false}) add({place, resolution, 6, anisotropic, 0.5});
     if (!session.is_cpu() && &place == &all[1]) add({place, 256, 6, false, 0.5});  // takes half a minute
     if (session.is_cpu() || &place != &all[0]) continue;
     for (const int cones : {1, 4, 9, 16, 25}) add({place, 128, cones, false, 0.5});

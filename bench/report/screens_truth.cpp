@@ -143,7 +143,7 @@ std::vector<Job> screen_truth_grid(Session& session, std::vector<std::string>& m
     add(SsrVariant::linear, false, 1);
     add(SsrVariant::stochastic, false, 1);
   }
-  for (const double reach : quick ? std::vector<double>{4} : std::vector<double>{1, 2, 4, 8})
+  for (const double reach : quick ? std::vector<double>{4} : std::vector<double>{2, 4, 8})  // below 2 steps are shorter than a pixel
     jobs.push_back({fmt::format("hiz_ssr thin features, reach {}", reach), [=, &session] { return thin(session, reach); }});
   return jobs;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "bench/report/scenes.h"
 #include "bench/truth/path_truth.h"
@@ -22,8 +23,9 @@ std::vector<Place> places(std::vector<std::string>& missing) {
 }
 
 Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
-  static std::map<std::string, std::shared_ptr<const Stage>> stages;
-  if (stages.contains(place.name)) return stages[place.name];
+  static std::map<std::pair<std::string, bool>, std::shared_ptr<const Stage>> stages;
+  const std::pair key{place.name, quick};
+  if (stages.contains(key)) return stages[key];
   auto read = scene::scene_from(place.scene);
   if (!read) return read.status();
   auto stage = std::make_shared<Stage>();
@@ -48,8 +50,8 @@ Result<std::shared_ptr<const Stage>> stage_of(const Place& place, bool quick) {
     }
   }
   stage->mean /= static_cast<double>(std::max<std::size_t>(stage->t1.size(), 1));
-  stages[place.name] = stage;
-  return stages[place.name];
+  stages[key] = stage;
+  return stages[key];
 }
 
 Relative relative(const std::vector<double>& a1, const std::vector<double>& a2, const std::vector<double>& b1,
