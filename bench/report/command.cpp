@@ -18,7 +18,7 @@ void add_report(CLI::App& app, int& exit_status) {
   const auto a = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand(
       "report", "measure error against run time, stability and peers; write tables, JSON and a page");
-  command->add_flag("--quick", a->settings.quick, "fewer settings: five minutes on two quiet cores, eight on busy ones");
+  command->add_flag("--quick", a->settings.quick, "fewer settings: three minutes on two fast quiet cores, eight on busy ones");
   command
       ->add_option("--device", a->settings.devices,
                    "opencl, vulkan, cpu, an index of `luxel devices`, or part of a device's name; "

@@ -214,8 +214,7 @@ Status measure(Session& session, const std::string& name, std::size_t rays, int 
                   {{"distance", "f16"}, {"normal", normals ? "snorm8" : "none"}, {"grid", fmt::format("{},{},{}", count[0], count[1], count[2])}},
                   {{"resolution", size}, {"probes", f->probes.size()}, {"dead", dead}, {"thickness", p.thickness}, {"agree", a.agree},
                    {"known_right", a.known_right}, {"median_footprints", a.median}, {"p95_footprints", a.p95}, {"relative", a.relative},
-                   {"unknown", a.unknown}, {"capped", a.capped}, {"probes_a_ray", a.probes}, {"looks_a_ray", a.steps},
-                   {"ns_a_ray", ms.value().median * 1e6 / static_cast<double>(rays)}},
+                   {"unknown", a.unknown}, {"capped", a.capped}, {"probes_a_ray", a.probes}, {"looks_a_ray", a.steps}},
                   "rays off surfaces", errors.value()[0]};
   row.shade = cell_of(ms.value());
   ProbeBuildParams b;

@@ -150,7 +150,7 @@ Status measure(Session& session, int width, int height, SsrVariant variant, doub
       });
   if (!errors) return errors.status();
   FrontierRow row{"hiz_ssr", name(variant), "atrium", fmt::format("{}x{}", width, height), {{"depth", "linear"}},
-                  {{"max_distance", reach}, {"looks_a_ray", looks / rays}, {"ns_a_ray", ms.value().median * 1e6 / rays}},
+                  {{"max_distance", reach}, {"looks_a_ray", looks / rays}, {"rays", rays}},
                   fmt::format("reach {}", reach), errors.value()[0]};
   if (variant == SsrVariant::linear) row.knobs.set("steps", steps);
   row.shade = cell_of(ms.value());
