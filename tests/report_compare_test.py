@@ -63,6 +63,13 @@ class Compare(unittest.TestCase):
 
         self.assertFalse(self.agree(change))
 
+    def test_but_where_a_busy_machine_was_timed(self):
+        def change(rows):
+            rows[0], rows[1] = row("a", 1e-3, 2, False), row("b", 1e-3, 1, True)
+            rows[0]["time_ms"]["shade"]["busy"] = True
+
+        self.assertTrue(self.agree(change))
+
     def test_reports_without_a_common_setting_do_not_agree(self):
         self.assertFalse(compare.compare({"frontier": []}, self.first)[1])
 

@@ -33,7 +33,7 @@ Json row(const std::string& group, double error, double q1, double median, doubl
       {"options", Json::object()},
       {"knobs", Json::object()},
       {"time_ms",
-       {{"build", nullptr}, {"update", nullptr}, {"shade", {{"median", median}, {"q1", q1}, {"q3", q3}, {"n", 9}}}}},
+       {{"build", nullptr}, {"update", nullptr}, {"shade", {{"median", median}, {"q1", q1}, {"q3", q3}, {"n", 9}, {"busy", false}}}}},
       {"error",
        {{"metric", "m"},
         {"rounding", error},
@@ -126,7 +126,7 @@ TEST(ReportFrontier, ErrorIsTheSumOfItsParts) {
   r["error"]["device"] = nullptr;
   r["error"]["method"] = 4;
   EXPECT_EQ(total_error(r), 7);
-  r["time_ms"]["build"] = {{"median", 2}, {"q1", 1}, {"q3", 3}, {"n", 5}};
+  r["time_ms"]["build"] = {{"median", 2}, {"q1", 1}, {"q3", 3}, {"n", 5}, {"busy", false}};
   EXPECT_EQ(total_time(r).median, 3);
 }
 

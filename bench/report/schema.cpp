@@ -6,14 +6,14 @@
 namespace luxel::report {
 namespace {
 
-// Type letters: s string, n number, b boolean, o object, a array, t a time {median, q1, q3, n}; ? or null.
+// Type letters: s string, n number, b boolean, o object, a array, t a time {median, q1, q3, n, busy}; ? or null.
 struct Field {
   const char* name;
   const char* type;
 };
 using Fields = std::vector<Field>;
 
-const Fields time_fields{{"median", "n"}, {"q1", "n"}, {"q3", "n"}, {"n", "n"}};
+const Fields time_fields{{"median", "n"}, {"q1", "n"}, {"q3", "n"}, {"n", "n"}, {"busy", "b"}};
 const Fields phases{{"build", "t?"}, {"update", "t?"}, {"shade", "t?"}};
 const Fields errors{{"metric", "s"},  {"rounding", "n?"},       {"storage", "n?"}, {"device", "n?"},
                     {"method", "n?"}, {"discretization", "n?"}, {"model", "n?"},   {"stderr", "n?"}};

@@ -156,6 +156,7 @@ auto Session::guarded(const Take& take, const std::string& label) -> decltype(ta
     if (!taken.ok() || guard_.quiet(lowest)) return taken;
     if (attempt == most || !may_retake()) {
       note("busy", {{"label", label}, {"gflops", lowest}, {"best", guard_.best()}});
+      if constexpr (requires { taken.value().busy; }) taken.value().busy = true;
       return taken;
     }
     ++retaken_;

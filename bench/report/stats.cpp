@@ -14,11 +14,11 @@ Sample summarise(std::vector<double> values) {
     const std::size_t high = std::min(low + 1, values.size() - 1);
     return values[low] + (values[high] - values[low]) * (place - static_cast<double>(low));
   };
-  return {at(0.5), at(0.25), at(0.75), static_cast<int>(values.size())};
+  return {at(0.5), at(0.25), at(0.75), static_cast<int>(values.size()), false};
 }
 
 Cell cell_of(const Sample& sample) {
-  return {{"median", sample.median}, {"q1", sample.q1}, {"q3", sample.q3}, {"n", sample.n}};
+  return {{"median", sample.median}, {"q1", sample.q1}, {"q3", sample.q3}, {"n", sample.n}, {"busy", sample.busy}};
 }
 
 std::vector<double> ratios(const std::vector<double>& a, const std::vector<double>& b) {

@@ -9,6 +9,7 @@ namespace luxel::report {
 struct Sample {
   double median = 0, q1 = 0, q3 = 0;
   int n = 0;
+  bool busy = false;  // the machine did something else meanwhile
 };
 
 /// Quartiles by linear interpolation between order statistics. An empty list gives zeros.

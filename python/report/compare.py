@@ -4,7 +4,8 @@
 usage: compare.py A B     each a report's folder or its report.json; exit status 1 where they do not agree
 
 A setting that is on the frontier in one report alone is noise as long as some setting that beats it in the other is not
-clearly slower here: the first quartile of its time does not lie above the third of the setting's own.
+clearly slower here: the first quartile of its time does not lie above the third of the setting's own. Times that a report
+says were taken while the machine did something else decide nothing.
 """
 
 import json
@@ -42,9 +43,18 @@ def by_timing(row):
     return any((row["kernel"], word) in BY_TIMING for word in (row["variant"], *map(str, row["options"].values())))
 
 
+def busy(row):
+    return any(phase.get("busy") for phase in row["time_ms"].values() if phase)
+
+
 def slower(row, other):
     """Beyond what quartiles leave open."""
     return rows.total_time(row, "q1") > rows.total_time(other, "q3")
+
+
+def unlike(there, here, name, other):
+    """Whether `other`, faster than `name` there, is slower here, and no busy machine explains it."""
+    return not busy(there[other]) and not busy(here[other]) and slower(here[other], here[name])
 
 
 def flips(there, here):
@@ -62,7 +72,8 @@ def flips(there, here):
                 for other in names
                 if rows.total_error(there[other]) <= rows.total_error(there[name]) and slower(there[name], there[other])
             ]
-            found.append((name, bool(beating) and all(slower(here[other], here[name]) for other in beating)))
+            quiet = not busy(there[name]) and not busy(here[name])
+            found.append((name, quiet and bool(beating) and all(unlike(there, here, name, other) for other in beating)))
     return found
 
 
