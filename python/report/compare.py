@@ -43,10 +43,6 @@ def by_timing(row):
     return any((row["kernel"], word) in BY_TIMING for word in (row["variant"], *map(str, row["options"].values())))
 
 
-def busy(row):
-    return any(phase.get("busy") for phase in row["time_ms"].values() if phase)
-
-
 def slower(row, other):
     """Beyond what quartiles leave open."""
     return rows.total_time(row, "q1") > rows.total_time(other, "q3")
@@ -54,7 +50,7 @@ def slower(row, other):
 
 def unlike(there, here, name, other):
     """Whether `other`, faster than `name` there, is slower here, and no busy machine explains it."""
-    return not busy(there[other]) and not busy(here[other]) and slower(here[other], here[name])
+    return not rows.busy(there[other]) and not rows.busy(here[other]) and slower(here[other], here[name])
 
 
 def flips(there, here):
@@ -72,7 +68,7 @@ def flips(there, here):
                 for other in names
                 if rows.total_error(there[other]) <= rows.total_error(there[name]) and slower(there[name], there[other])
             ]
-            quiet = not busy(there[name]) and not busy(here[name])
+            quiet = not rows.busy(there[name]) and not rows.busy(here[name])
             found.append((name, quiet and bool(beating) and all(unlike(there, here, name, other) for other in beating)))
     return found
 

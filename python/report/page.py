@@ -134,7 +134,7 @@ def frontier_table(report, points):
             number(rows.total_error(row)),
             *parts,
             number(rows.total_time(row), 4),
-            f'{number(rows.total_time(row, "q1"))}–{number(rows.total_time(row, "q3"))}',
+            f'{number(rows.total_time(row, "q1"))}–{number(rows.total_time(row, "q3"))}{" (busy)" if rows.busy(row) else ""}',
             number(gigabytes),
             percent(of_copy),
             number(gigaflops),

@@ -258,6 +258,7 @@ def titled(figure, points, label=None):
         text = (
             f"{rows.setting(row)}\n{rows.number(rows.total_time(row), 4)} ms, error {rows.number(rows.total_error(row))}"
             f"\n{parts}" + ("" if row["on_frontier"] else "\nnot on the frontier")
+            + ("\ntimed while the machine was busy" if rows.busy(row) else "")
         )
         return f'{match.group(0)}<title>{html.escape(text)}</title>'
 

@@ -13,6 +13,11 @@ def total_time(row, quartile="median"):
     return sum(phase[quartile] for phase in row["time_ms"].values() if phase)
 
 
+def busy(row):
+    """Whether the machine did something else meanwhile."""
+    return any(phase.get("busy") for phase in row["time_ms"].values() if phase)
+
+
 BOUNCE = "irradiance after one bounce"
 
 
