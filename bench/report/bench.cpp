@@ -11,6 +11,7 @@
 #include "bench/report/guard.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
+#include "bench/report/workers.h"
 #include "bench/scene/images.h"
 #include "tests/cases/gaussian_blur_support.h"
 #include "tests/cases/mip_build_support.h"
@@ -134,6 +135,7 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
   Settings wanted;
   wanted.kernels = kernels;
   Guard guard;
+  Workers workers;
   for (int i = 0; i < 10; ++i) guard.measure();
   int status = 0;
   fmt::print("{}\n{:<58} {:>9} {:>9} {:>9} {:>7} {:>9}\n", context->info().id, "setting", "ms", "q1", "q3", "GB/s",
@@ -142,6 +144,7 @@ int bench_device(const std::shared_ptr<Context>& context, const std::vector<std:
     auto run = cases::Run::make(*context, setting.plan);
     Status failed = run.status();
     if (run) failed = fill(run.value(), setting);
+    if (!failed && context->info().api != Api::cpu) workers.place([&] { return run.value().go(1).ok(); });
     const Result<Sample> ms = failed ? time(run.value()) : Result<Sample>(failed);
     if (!ms) {
       fmt::print("{:<58} {}\n", where, ms.status().message());

@@ -170,6 +170,7 @@ Result<Sample> Session::time(cases::Run& run, const std::string& label) {
   if (settings_.once) return summarise({first.total});
   if (Status status = run.go(1, &second); !status) return status;
   note("first_use", {{"label", label}, {"compile_ms", run.compile_ms()}, {"first_run_ms", first.total}});
+  if (!is_cpu()) workers_.place([&] { return run.go(1).ok(); });
   const double one = std::max(1e-3, std::min(first.total, second.total));
   const double sample_ms = settings_.quick ? 1.0 : 3.0, budget_ms = settings_.quick ? 60 : 200;
   const int repeat = std::clamp(static_cast<int>(std::ceil(sample_ms / one)), 1, 1000);
@@ -203,6 +204,7 @@ Result<Session::Pair> Session::interleave(const Timed& a, const Timed& b, const 
     if (!second) return second.status();
     one = first.value() + second.value();
   }
+  if (!is_cpu()) workers_.place([&] { return a().ok(); });
   const int least = settings_.quick ? 3 : one < slow_pair_ms ? 9 : 5;
   const int n = std::clamp(static_cast<int>((settings_.quick ? quick_pairs_ms : pairs_ms) / one), least, settings_.quick ? 9 : 25);
   return guarded(

@@ -14,6 +14,7 @@
 #include "bench/report/guard.h"
 #include "bench/report/settings.h"
 #include "bench/report/stats.h"
+#include "bench/report/workers.h"
 
 namespace luxel::report {
 
@@ -113,6 +114,7 @@ class Session {
   Settings settings_;
   int rows_;
   Guard guard_;
+  Workers workers_;
   int timed_ = 0, retaken_ = 0;
   std::map<std::string, std::vector<Oracle>> oracles_;
   std::map<std::string, std::vector<double>> numbers_;  // of shared()
