@@ -1,12 +1,18 @@
 // The report: frontier, shape, children that die, and the program itself on a few rows.
 #include <gtest/gtest.h>
 
+#include <sched.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "bench/report/child.h"
 #include "bench/report/defaults.h"
@@ -15,6 +21,7 @@
 #include "bench/report/schema.h"
 #include "bench/report/stage.h"
 #include "bench/report/stats.h"
+#include "bench/report/workers.h"
 #include "tests/report/errors_of.h"
 #include "tests/support/run.h"
 
@@ -354,6 +361,57 @@ TEST(Report, ADriverThatDiesLosesOnlyItsOwnRowsAndIsNamed) {
   ASSERT_FALSE(o.report["frontier"].empty());
   for (const Json& r : o.report["frontier"]) EXPECT_EQ(r["device"], "cpu:float");
   EXPECT_TRUE(check_schema(o.report).empty());
+}
+
+TEST(Workers, EachBusyThreadGetsACoreOfItsOwnAndIdleOnesKeepAll) {
+  const std::vector<int> places = cores();
+  ASSERT_FALSE(places.empty());
+  struct Thread {
+    std::atomic<int> id{0};
+    std::jthread thread;
+  };
+  std::vector<Thread> busy(places.size());
+  for (Thread& b : busy)
+    b.thread = std::jthread([&b](const std::stop_token& stop) {
+      b.id = ::gettid();
+      while (!stop.stop_requested()) {}
+    });
+  std::atomic<int> idle_id{0};
+  const std::jthread idle([&](const std::stop_token& stop) {
+    idle_id = ::gettid();
+    while (!stop.stop_requested()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  });
+  const auto allowed = [](int thread) {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    EXPECT_EQ(::sched_getaffinity(thread, sizeof set, &set), 0);
+    return set;
+  };
+  const auto kept = [&] {
+    const cpu_set_t set = allowed(busy[0].id);
+    return CPU_COUNT(&set) == 1;
+  };
+  for (const Thread& b : busy)
+    while (b.id == 0) std::this_thread::yield();
+  while (idle_id == 0) std::this_thread::yield();
+  Workers workers;
+  // What else runs on the machine may leave a thread without time in one try.
+  for (int i = 0; i < 20 && (i == 0 || !kept()); ++i)
+    workers.place([] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      return true;
+    });
+  std::vector<int> found;
+  for (const Thread& b : busy) {
+    const cpu_set_t set = allowed(b.id);
+    ASSERT_EQ(CPU_COUNT(&set), 1);
+    for (const int core : places)
+      if (CPU_ISSET(core, &set)) found.push_back(core);
+  }
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, places);
+  const cpu_set_t set = allowed(idle_id);
+  EXPECT_EQ(CPU_COUNT(&set), static_cast<int>(places.size()));
 }
 
 TEST(Report, WrongUseIsOneLineAndStatusTwo) {
